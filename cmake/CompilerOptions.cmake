@@ -1,0 +1,20 @@
+# C++17, optimised unless asked otherwise, strict warnings. Our scripts build with STEREO_NAV_WERROR=ON.
+option(STEREO_NAV_WERROR "Treat compiler warnings as errors" OFF)
+set(STEREO_NAV_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined or thread")
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+add_compile_options(-Wall -Wextra -Wconversion -Wshadow -Wnon-virtual-dtor)
+if(STEREO_NAV_WERROR)
+  add_compile_options(-Werror)
+endif()
+if(STEREO_NAV_SANITIZE)
+  add_compile_options(-fsanitize=${STEREO_NAV_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1)
+  add_link_options(-fsanitize=${STEREO_NAV_SANITIZE})
+endif()

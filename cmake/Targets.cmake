@@ -1,0 +1,41 @@
+# One way to declare a library, a program and a test.
+
+# stereo_nav_library(<name> SOURCES ... LINK ...): shared library lib<name>.so with the package's public headers.
+function(stereo_nav_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/include)
+  # Third-party headers are not held to our warnings.
+  target_include_directories(${name} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
+  target_link_libraries(${name} PUBLIC ${ARG_LINK})
+  install(TARGETS ${name}
+    ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+    RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+endfunction()
+
+# stereo_nav_program(<name> SOURCES ... LINK ...): a program that rosrun finds.
+function(stereo_nav_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endfunction()
+
+# stereo_nav_unit_test(<name> SOURCES ... LINK ... [TIMEOUT seconds]): a GoogleTest program in the run_tests target.
+function(stereo_nav_unit_test name)
+  if(NOT CATKIN_ENABLE_TESTING)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  catkin_add_gtest(${name} ${ARG_SOURCES})
+  set_tests_properties(_ctest_${PROJECT_NAME}_gtest_${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  target_include_directories(${name} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
+  target_link_libraries(${name} ${ARG_LINK} gtest_main Threads::Threads)
+  target_compile_definitions(${name} PRIVATE STEREO_NAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endfunction()

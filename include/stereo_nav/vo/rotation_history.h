@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <deque>
+#include <optional>
+
+#include "stereo_nav/vo/imu_sample.h"
+
+namespace stereo_nav::vo {
+
+/// Recent IMU samples, asked for the rotation between two instants. Attitudes are preferred where the samples
+/// carry them (interpolated at both ends); otherwise angular rates are integrated (linear between samples,
+/// both ends interpolated). Bounded: keeps `kHistory_s` seconds.
+class RotationHistory {
+ public:
+  static constexpr double kHistory_s = 10.0;
+  /// Two samples further apart than this leave a hole that nothing is interpolated across.
+  static constexpr double kMaxGap_s = 0.25;
+
+  /// Samples that are not newer than the last one, or not finite, are ignored; returns whether it was taken.
+  bool add(const ImuSample& sample);
+  void clear() { samples_.clear(); }
+  bool empty() const { return samples_.empty(); }
+  double newest_s() const;  ///< -infinity when empty
+
+  /// Rotation that takes coordinates of the IMU frame at `from_s` into the IMU frame at `to_s` (either order
+  /// of time); nothing when the samples do not cover the interval.
+  std::optional<Eigen::Matrix3d> increment(double from_s, double to_s) const;
+
+  /// Attitude (world <- IMU) at an instant, where the samples carry one.
+  std::optional<Eigen::Quaterniond> attitude(double time_s) const;
+
+  /// Mean specific force of the samples in [from_s, to_s], IMU frame, m/s^2; nothing without accelerometer
+  /// samples.
+  std::optional<Eigen::Vector3d> meanAcceleration(double from_s, double to_s) const;
+
+ private:
+  bool covers(double time_s) const;
+  Eigen::Vector3d rateAt(double time_s) const;
+
+  std::deque<ImuSample> samples_;
+};
+
+}  // namespace stereo_nav::vo
