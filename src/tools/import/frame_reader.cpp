@@ -51,12 +51,13 @@ class Video : public FrameReader {
   explicit Video(const std::string& path) : path_(path), video_(openVideo(path)) {
     while (video_.grab()) ++size_;
     if (size_ == 0) throw InputError(path + ": holds no frame that can be decoded");
-    video_ = openVideo(path);
+    rewind();
   }
 
   std::size_t size() const override { return size_; }
 
   cv::Mat read(std::size_t index) override {
+    if (index < next_) rewind();
     while (next_ < index && video_.grab()) ++next_;
     cv::Mat image;
     if (next_ != index || !video_.read(image)) {
@@ -67,6 +68,11 @@ class Video : public FrameReader {
   }
 
  private:
+  void rewind() {
+    video_ = openVideo(path_);
+    next_ = 0;
+  }
+
   std::string path_;
   cv::VideoCapture video_;
   std::size_t size_ = 0;

@@ -15,8 +15,8 @@ class FrameReader {
 
   virtual std::size_t size() const = 0;
 
-  /// Frame `index` < size(), CV_8UC1, CV_8UC3 (blue, green, red) or CV_16UC1. Ask in increasing order: a
-  /// video only runs forward. Throws ros_io::InputError that names the file.
+  /// Frame `index` < size(), CV_8UC1, CV_8UC3 (blue, green, red) or CV_16UC1. A step back in a video starts
+  /// it anew. Throws ros_io::InputError that names the file.
   virtual cv::Mat read(std::size_t index) = 0;
 };
 
