@@ -23,7 +23,9 @@ cv::Scalar colourOf(vo::FeatureReport::Fate fate) {
   return {255, 255, 255};
 }
 
-bool hasDepth(const vo::FeatureReport& feature) { return feature.p_camera.z() > 0.0; }
+bool hasDepth(const vo::FeatureReport& feature) {
+  return feature.p_camera.z() > 0.0;
+}
 
 }  // namespace
 
@@ -39,7 +41,8 @@ cv::Mat drawFeatures(const cv::Mat& left, const vo::FrameResult& result) {
   return view;
 }
 
-sensor_msgs::PointCloud2 featureCloud(const std_msgs::Header& header, const std::vector<vo::FeatureReport>& features) {
+sensor_msgs::PointCloud2 featureCloud(const std_msgs::Header& header,
+                                      const std::vector<vo::FeatureReport>& features) {
   std::size_t count = 0;
   for (const vo::FeatureReport& feature : features) count += hasDepth(feature) ? 1 : 0;
 
@@ -48,7 +51,8 @@ sensor_msgs::PointCloud2 featureCloud(const std_msgs::Header& header, const std:
   using sensor_msgs::PointField;
   sensor_msgs::PointCloud2Modifier modifier(cloud);
   modifier.setPointCloud2Fields(5, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
-                                PointField::FLOAT32, "rgb", 1, PointField::FLOAT32, "id", 1, PointField::UINT32);
+                                PointField::FLOAT32, "rgb", 1, PointField::FLOAT32, "id", 1,
+                                PointField::UINT32);
   modifier.resize(count);
   sensor_msgs::PointCloud2Iterator<float> point(cloud, "x");
   sensor_msgs::PointCloud2Iterator<std::uint8_t> bgr(cloud, "rgb");

@@ -51,7 +51,8 @@ void Health::clear(const std::string& key) {
   if (problems_.clear(key)) ROS_INFO_STREAM(name_ << ": over: " << key);
 }
 
-void Health::replace(const std::string& family, bool is_error, const std::map<std::string, std::string>& texts) {
+void Health::replace(const std::string& family, bool is_error,
+                     const std::map<std::string, std::string>& texts) {
   std::vector<std::string> ended;
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -57,7 +57,8 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle& handle, const VisualOdomet
   path_.header.frame_id = params_.odom_frame;
 }
 
-void OdometryPublisher::publish(const FrameMessages& frame, const SessionOutput& output, const FrameCounts& counts) {
+void OdometryPublisher::publish(const FrameMessages& frame, const SessionOutput& output,
+                                const FrameCounts& counts) {
   if (output.processed) publishOdometry(frame, output.base);
   publishStatus(frame, output, counts);
   if (output.processed) publishViews(frame, output);
@@ -86,7 +87,8 @@ void OdometryPublisher::publishOdometry(const FrameMessages& frame, const BaseEs
 void OdometryPublisher::publishPath(const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
   auto& poses = path_.poses;
   // Poses are kept without a subscriber, too: who looks later sees the whole way.
-  const bool is_new = poses.empty() || distance(poses.back().pose.position, pose.position) >= params_.path_spacing_m;
+  const bool is_new =
+      poses.empty() || distance(poses.back().pose.position, pose.position) >= params_.path_spacing_m;
   if (is_new) {
     if (poses.size() >= static_cast<std::size_t>(params_.path_max_poses)) {
       for (std::size_t i = 0; 2 * i < poses.size(); ++i) poses[i] = poses[2 * i];

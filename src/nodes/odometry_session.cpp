@@ -14,7 +14,8 @@ namespace {
 constexpr double kCameraOrderInterval_s = 1.0;
 
 std::optional<Eigen::Isometry3d> lookUp(const TransformLookup& lookup, const std::string& base_frame,
-                                        const std::string& sensor_frame, bool is_camera, std::string& problem) {
+                                        const std::string& sensor_frame, bool is_camera,
+                                        std::string& problem) {
   if (sensor_frame == base_frame) return Eigen::Isometry3d::Identity();
   std::string error;
   const auto transform = lookup(base_frame, sensor_frame, error);
@@ -84,7 +85,8 @@ bool OdometrySession::prepare(const FrameMessages& frame, const SensorSetup& set
   return true;
 }
 
-bool OdometrySession::prepareCameras(const FrameMessages& frame, const SensorSetup& setup, SessionOutput& output) {
+bool OdometrySession::prepareCameras(const FrameMessages& frame, const SensorSetup& setup,
+                                     SessionOutput& output) {
   if (!setup.left_info || !setup.right_info) {
     output.errors["camera_info"] = "no camera_info of both cameras yet";
     return false;
@@ -95,7 +97,8 @@ bool OdometrySession::prepareCameras(const FrameMessages& frame, const SensorSet
     output.errors["cameras"] = error.what();
     return false;
   }
-  const bool same = odometry_ && sameCamera(*left_info_, *setup.left_info) && sameCamera(*right_info_, *setup.right_info);
+  const bool same =
+      odometry_ && sameCamera(*left_info_, *setup.left_info) && sameCamera(*right_info_, *setup.right_info);
   if (same) return true;
 
   const std::string camera_frame = withoutSlash(frame.left->header.frame_id);
@@ -105,7 +108,8 @@ bool OdometrySession::prepareCameras(const FrameMessages& frame, const SensorSet
     output.errors["camera_transform"] = problem;
     return false;
   }
-  if (odometry_) output.announcements.push_back("the camera_infos changed; the odometry starts anew at its last pose");
+  if (odometry_)
+    output.announcements.push_back("the camera_infos changed; the odometry starts anew at its last pose");
   left_info_ = setup.left_info;
   right_info_ = setup.right_info;
   camera_frame_ = camera_frame;
@@ -124,7 +128,8 @@ bool OdometrySession::prepareImu(const SensorSetup& setup, SessionOutput& output
     (odometry_ ? output.warnings : output.errors)["imu_transform"] = problem;
     return odometry_ != nullptr;
   }
-  if (odometry_) output.announcements.push_back("the IMU has appeared; the odometry starts anew with it at its last pose");
+  if (odometry_)
+    output.announcements.push_back("the IMU has appeared; the odometry starts anew with it at its last pose");
   imu_frame_ = imu_frame;
   R_base_imu_ = T_base_imu->linear();
   odometry_.reset();
@@ -147,8 +152,10 @@ void OdometrySession::level(double time_s, SessionOutput& output) {
       imu_frame_.empty() ? std::nullopt : levelledAttitude(imu_history_, time_s, R_base_imu_);
   if (!R_odom_base) {
     output.announcements.push_back(
-        "initial_attitude is gravity, but the IMU gives neither attitude nor acceleration before the first frame; the "
-        "odometry frame is the base's own, not levelled. Is the IMU running, and sampled at the image's time?");
+        "initial_attitude is gravity, but the IMU gives neither attitude nor acceleration before the first "
+        "frame; the "
+        "odometry frame is the base's own, not levelled. Is the IMU running, and sampled at the image's "
+        "time?");
     return;
   }
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
@@ -178,8 +185,10 @@ void OdometrySession::checkCameraOrder(SessionOutput& output) {
   }
   if (camera_order_->verdict() != vo::CameraOrderCheck::Verdict::kSwapped) return;
   output.warnings["camera_order"] =
-      "left and right images are swapped: most corners of the left image lie further right in the right image "
-      "(negative disparity), which no rectified pair in the right order shows; depth and odometry are wrong. Exchange "
+      "left and right images are swapped: most corners of the left image lie further right in the right "
+      "image "
+      "(negative disparity), which no rectified pair in the right order shows; depth and odometry are wrong. "
+      "Exchange "
       "the two cameras' device numbers (left_device, right_device), plugs or topics";
 }
 

@@ -26,7 +26,8 @@ vo::OdometryConfig readOdometryConfig(const ros::NodeHandle& private_handle) {
   return config;
 }
 
-/// Asks the odometry itself whether it wants the map; which calibration it would run with plays no part in that.
+/// Asks the odometry itself whether it wants the map; which calibration it would run with plays no part in
+/// that.
 FrameSynchroniserParams::Disparity disparityUse(const vo::OdometryConfig& config) {
   vo::StereoCalibration any;
   any.fx = any.fy = any.baseline_m = 1.0;
@@ -106,23 +107,26 @@ void VisualOdometryNode::subscribe() {
   constexpr std::uint32_t kQueue = 20;  // callbacks are short; this only bridges a busy moment
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   const image_transport::TransportHints image_hints("raw", hints, private_handle_);
-  const std::string rectify = "It comes from image_proc/rectify, which needs the raw image and its camera_info";
+  const std::string rectify =
+      "It comes from image_proc/rectify, which needs the raw image and its camera_info";
 
-  left_subscriber_ = image_transport_.subscribe("camera/left/image_rect", kQueue, &VisualOdometryNode::handleLeft,
-                                                this, image_hints);
-  left_input_ = watch("camera/left/image_rect", true, rectify, [this] { return left_subscriber_.getNumPublishers(); });
-  right_subscriber_ = image_transport_.subscribe("camera/right/image_rect", kQueue, &VisualOdometryNode::handleRight,
-                                                 this, image_hints);
-  right_input_ =
-      watch("camera/right/image_rect", true, rectify, [this] { return right_subscriber_.getNumPublishers(); });
+  left_subscriber_ = image_transport_.subscribe("camera/left/image_rect", kQueue,
+                                                &VisualOdometryNode::handleLeft, this, image_hints);
+  left_input_ =
+      watch("camera/left/image_rect", true, rectify, [this] { return left_subscriber_.getNumPublishers(); });
+  right_subscriber_ = image_transport_.subscribe("camera/right/image_rect", kQueue,
+                                                 &VisualOdometryNode::handleRight, this, image_hints);
+  right_input_ = watch("camera/right/image_rect", true, rectify,
+                       [this] { return right_subscriber_.getNumPublishers(); });
 
   if (disparityUse(readOdometryConfig(private_handle_)) != FrameSynchroniserParams::Disparity::kNone) {
     disparity_subscriber_ =
         handle_.subscribe("camera/disparity", kQueue, &VisualOdometryNode::handleDisparity, this, hints);
-    disparity_input_ = watch("camera/disparity", true,
-                             "It comes from stereo_image_proc/disparity, which needs both rectified images and "
-                             "camera_infos with equal stamps (see image_proc.launch)",
-                             [this] { return disparity_subscriber_.getNumPublishers(); });
+    disparity_input_ =
+        watch("camera/disparity", true,
+              "It comes from stereo_image_proc/disparity, which needs both rectified images and "
+              "camera_infos with equal stamps (see image_proc.launch)",
+              [this] { return disparity_subscriber_.getNumPublishers(); });
   }
   sync_subscriber_ = handle_.subscribe("camera/sync", kQueue, &VisualOdometryNode::handleSync, this, hints);
 
@@ -153,13 +157,15 @@ void VisualOdometryNode::subscribeImu() {
       break;
     case VisualOdometryParams::Imu::kQuaternion:
       topic = ros_io::topics::kImuQuaternion;
-      imu_subscriber_ = handle_.subscribe(topic, kImuQueue, &VisualOdometryNode::handleQuaternion, this, hints);
+      imu_subscriber_ =
+          handle_.subscribe(topic, kImuQueue, &VisualOdometryNode::handleQuaternion, this, hints);
       break;
   }
-  imu_input_ = watch(topic, false,
-                     "Rotation comes from the images alone until it runs. It comes from imu_bridge; without an IMU set "
-                     "the parameter `imu: none`",
-                     [this] { return imu_subscriber_.getNumPublishers(); });
+  imu_input_ = watch(
+      topic, false,
+      "Rotation comes from the images alone until it runs. It comes from imu_bridge; without an IMU set "
+      "the parameter `imu: none`",
+      [this] { return imu_subscriber_.getNumPublishers(); });
 }
 
 void VisualOdometryNode::handleLeft(const sensor_msgs::ImageConstPtr& image) {
@@ -227,10 +233,11 @@ void VisualOdometryNode::addImuSample(const vo::ImuSample& sample, const std::st
   if (frame.empty() || !holds_anything || !isFinite(sample)) {
     ++imu_refused_;
     health_.raise("imu", false,
-                  frame.empty() ? "IMU messages carry no frame id, so that nobody can say how the IMU is mounted; they "
-                                  "are not used. Set it in the driver, or the parameter imu_frame"
-                                : "IMU messages hold NaN, or neither orientation nor rates; they are not used. Look at "
-                                  "`rostopic echo` of the topic, then at the driver");
+                  frame.empty()
+                      ? "IMU messages carry no frame id, so that nobody can say how the IMU is mounted; they "
+                        "are not used. Set it in the driver, or the parameter imu_frame"
+                      : "IMU messages hold NaN, or neither orientation nor rates; they are not used. Look at "
+                        "`rostopic echo` of the topic, then at the driver");
     return;
   }
   {
@@ -284,8 +291,10 @@ void VisualOdometryNode::handleTimer(const ros::WallTimerEvent&) {
   std::string drops;
   if (counts.dropped > dropped_reported_) {
     drops = std::to_string(counts.dropped - dropped_reported_) +
-            " of the last second's frames were dropped: images of a frame are lost on the way, or the computer is too "
-            "slow for the cameras. Compare vo/status stage_times_ms with the frame rate; lower rate or resolution";
+            " of the last second's frames were dropped: images of a frame are lost on the way, or the "
+            "computer is too "
+            "slow for the cameras. Compare vo/status stage_times_ms with the frame rate; lower rate or "
+            "resolution";
   }
   dropped_reported_ = counts.dropped;
   health_.replace("dropped frames", false, {{"", drops}});
@@ -336,7 +345,8 @@ void VisualOdometryNode::processFrame(const Inbox::Work& work) {
     if (work.frame.after_jump) publisher_.forgetPath();
     publisher_.publish(work.frame, output, counts);
   }
-  const std::chrono::duration<double, std::milli> latency = std::chrono::steady_clock::now() - work.frame.arrival;
+  const std::chrono::duration<double, std::milli> latency =
+      std::chrono::steady_clock::now() - work.frame.arrival;
   for (const auto& announcement : output.announcements) ROS_WARN_STREAM(name_ << ": " << announcement);
   health_.replace("setup: ", true, output.errors);
   health_.replace("quality: ", false, output.warnings);

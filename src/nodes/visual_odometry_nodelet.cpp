@@ -1,8 +1,8 @@
 // The visual_odometry node as a nodelet: in the manager of the image nodelets, images travel without a copy.
 #include <nodelet/nodelet.h>
-#include <pluginlib/class_list_macros.hpp>
 
 #include <memory>
+#include <pluginlib/class_list_macros.hpp>
 
 #include "stereo_nav/nodes/visual_odometry_node.h"
 

@@ -9,7 +9,8 @@ void VisualOdometryParams::describe(ParameterVisitor& visitor) {
                "frame of the IMU; empty: that of its messages, and base_frame for imu_quat, which has none");
   visitor.flag("publish_tf", publish_tf, "publish odom_frame -> base_frame in tf; off where a filter does");
   visitEnum(visitor, "imu", imu, {{"none", Imu::kNone}, {"imu", Imu::kImu}, {"quaternion", Imu::kQuaternion}},
-            "which topic: none, imu/data (sensor_msgs/Imu), or imu_quat (geometry_msgs/Quaternion, stamped on arrival)");
+            "which topic: none, imu/data (sensor_msgs/Imu), or imu_quat (geometry_msgs/Quaternion, stamped "
+            "on arrival)");
   visitEnum(visitor, "initial_attitude", initial_attitude,
             {{"identity", InitialAttitude::kIdentity}, {"gravity", InitialAttitude::kGravity}},
             "the odometry frame is base_frame at the start, or that with its z axis levelled by the IMU");

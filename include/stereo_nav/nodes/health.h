@@ -12,15 +12,16 @@
 
 namespace stereo_nav::nodes {
 
-/// What the node knows of its own state: says problems in the log when they begin, last and end, and reports them with
-/// counts and latency in /diagnostics. Thread-safe.
+/// What the node knows of its own state: says problems in the log when they begin, last and end, and reports
+/// them with counts and latency in /diagnostics. Thread-safe.
 class Health {
  public:
   Health(ros::NodeHandle& handle, ros::NodeHandle& private_handle, const std::string& name);
 
   void raise(const std::string& key, bool is_error, const std::string& text);
   void clear(const std::string& key);
-  /// Raises what `texts` hold, ends earlier ones of the same `family` that they do not; empty texts count as ended.
+  /// Raises what `texts` hold, ends earlier ones of the same `family` that they do not; empty texts count as
+  /// ended.
   void replace(const std::string& family, bool is_error, const std::map<std::string, std::string>& texts);
 
   void frameDone(const SessionOutput& output, const FrameCounts& counts, double latency_ms);

@@ -21,7 +21,8 @@ struct FrameCounts {
   std::uint64_t lost = 0;
 };
 
-/// Turns what the odometry made of a frame into messages. Pictures, cloud and path are made only for subscribers.
+/// Turns what the odometry made of a frame into messages. Pictures, cloud and path are made only for
+/// subscribers.
 class OdometryPublisher {
  public:
   OdometryPublisher(ros::NodeHandle& handle, const VisualOdometryParams& params);

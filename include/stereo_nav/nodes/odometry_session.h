@@ -18,7 +18,8 @@
 
 namespace stereo_nav::nodes {
 
-/// Transform that takes coordinates of `source` into `target`; nothing, and why in `error`, while tf does not know it.
+/// Transform that takes coordinates of `source` into `target`; nothing, and why in `error`, while tf does not
+/// know it.
 using TransformLookup = std::function<std::optional<Eigen::Isometry3d>(
     const std::string& target, const std::string& source, std::string& error)>;
 
@@ -31,8 +32,8 @@ struct SensorSetup {
 
 /// What the node publishes of one frame.
 struct SessionOutput {
-  bool processed = false;                       ///< false: there is no odometry of this frame; `errors` say why
-  std::map<std::string, std::string> errors;    ///< by kind
+  bool processed = false;                     ///< false: there is no odometry of this frame; `errors` say why
+  std::map<std::string, std::string> errors;  ///< by kind
   std::map<std::string, std::string> warnings;  ///< by kind; the odometry runs, but not as it should
   std::vector<std::string> announcements;       ///< what the user must know of: restarts, changes
   vo::StereoFrame images;
@@ -40,15 +41,16 @@ struct SessionOutput {
   BaseEstimate base;
 };
 
-/// The odometry of a node from messages to the pose of the base: waits until calibration and mounting are known,
-/// refuses what cannot be right, starts anew when the clock jumps back or the cameras change. No topics in here; not
-/// thread-safe.
+/// The odometry of a node from messages to the pose of the base: waits until calibration and mounting are
+/// known, refuses what cannot be right, starts anew when the clock jumps back or the cameras change. No
+/// topics in here; not thread-safe.
 class OdometrySession {
  public:
-  OdometrySession(const VisualOdometryParams& params, const vo::OdometryConfig& config, TransformLookup lookup);
+  OdometrySession(const VisualOdometryParams& params, const vo::OdometryConfig& config,
+                  TransformLookup lookup);
 
-  /// `live`: stamps are those of a running clock, not of a replay. Decides whether the pose is kept when they jump
-  /// back: a corrected clock must not move the robot, a bag that starts again begins at the origin.
+  /// `live`: stamps are those of a running clock, not of a replay. Decides whether the pose is kept when they
+  /// jump back: a corrected clock must not move the robot, a bag that starts again begins at the origin.
   SessionOutput process(const Inbox::Work& work, const SensorSetup& setup, bool live);
 
   /// Forgets everything but the mounting; the next frame is the origin.

@@ -22,12 +22,13 @@
 
 namespace stereo_nav::nodes {
 
-/// The visual_odometry node; the nodelet is the same object on the nodelet's handles. Callbacks only queue; one thread
-/// runs the odometry and publishes. The handles' callbacks must come from one thread.
+/// The visual_odometry node; the nodelet is the same object on the nodelet's handles. Callbacks only queue;
+/// one thread runs the odometry and publishes. The handles' callbacks must come from one thread.
 class VisualOdometryNode {
  public:
   /// Throws ParameterError.
-  VisualOdometryNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, const std::string& name);
+  VisualOdometryNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                     const std::string& name);
   ~VisualOdometryNode();
 
  private:
@@ -40,7 +41,8 @@ class VisualOdometryNode {
   void handleRight(const sensor_msgs::ImageConstPtr& image);
   void handleDisparity(const stereo_msgs::DisparityImageConstPtr& disparity);
   void handleSync(const StereoSyncConstPtr& sync);
-  void handleInfo(sensor_msgs::CameraInfoConstPtr& slot, std::size_t input, const sensor_msgs::CameraInfoConstPtr& info);
+  void handleInfo(sensor_msgs::CameraInfoConstPtr& slot, std::size_t input,
+                  const sensor_msgs::CameraInfoConstPtr& info);
   void handleImu(const sensor_msgs::ImuConstPtr& imu);
   void handleQuaternion(const geometry_msgs::QuaternionConstPtr& quaternion);
   void addImuSample(const vo::ImuSample& sample, const std::string& frame_id);

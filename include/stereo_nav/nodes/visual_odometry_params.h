@@ -10,8 +10,8 @@
 
 namespace stereo_nav::nodes {
 
-/// Parameters of the visual_odometry node and nodelet, in its private namespace. The odometry's own (config/vo*.yaml)
-/// are below `~vo`.
+/// Parameters of the visual_odometry node and nodelet, in its private namespace. The odometry's own
+/// (config/vo*.yaml) are below `~vo`.
 struct VisualOdometryParams {
   enum class Imu { kNone, kImu, kQuaternion };
   enum class InitialAttitude { kIdentity, kGravity };
