@@ -10,8 +10,8 @@ namespace stereo_nav::eval {
 
 /// Bounds of looking up a pose by time.
 struct AssociationParams {
-  double max_gap_s = 0.25;         ///< two neighbours further apart than this leave a hole
-  double max_difference_s = 0.01;  ///< in a hole or beyond the ends, the nearest pose counts if this near
+  double max_gap_s = 0.25;          ///< two neighbours further apart than this leave a hole
+  double max_difference_s = 0.002;  ///< in a hole or beyond the ends, the nearest pose counts if this near
 };
 
 /// Ground truth at an instant. Ground truth is usually much denser than the images (EuRoC: 200 Hz against 20

@@ -10,6 +10,8 @@ constexpr const char* kLeftInfo = "camera/left/camera_info";
 constexpr const char* kRightInfo = "camera/right/camera_info";
 constexpr const char* kSync = "camera/sync";
 constexpr const char* kImu = "imu/data";
+/// The thesis' topic: orientation without header.
+constexpr const char* kImuQuaternion = "imu_quat";
 constexpr const char* kGroundTruth = "ground_truth/odom";
 constexpr const char* kTfStatic = "tf_static";
 
