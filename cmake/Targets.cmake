@@ -23,17 +23,22 @@ function(stereo_nav_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
 
-# stereo_nav_unit_test(<name> SOURCES ... LINK ... [TIMEOUT seconds]): a GoogleTest program in the run_tests target.
+# stereo_nav_unit_test(<name> SOURCES ... LINK ... [TIMEOUT seconds] [LABELS ...]): a GoogleTest program in the run_tests
+# target. The label "tsan" has scripts/test.sh --tsan run it under ThreadSanitizer, too.
 function(stereo_nav_unit_test name)
   if(NOT CATKIN_ENABLE_TESTING)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(STEREO_NAV_SANITIZE)
+    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
+  endif()
   catkin_add_gtest(${name} ${ARG_SOURCES})
-  set_tests_properties(_ctest_${PROJECT_NAME}_gtest_${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  set_tests_properties(_ctest_${PROJECT_NAME}_gtest_${name} PROPERTIES
+    TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_include_directories(${name} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
   target_link_libraries(${name} ${ARG_LINK} gtest_main Threads::Threads)

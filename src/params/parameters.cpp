@@ -55,6 +55,7 @@ class RangeChecker : public SectionedVisitor {
             const std::string& doc) override {
     check(name, value, range, unit, doc);
   }
+  void text(const std::string&, std::string&, const std::string&) override {}
   void choice(const std::string&, std::size_t&, const std::vector<std::string>&,
               const std::string&) override {}
 
@@ -85,17 +86,20 @@ class YamlReader : public SectionedVisitor {
             const std::string&) override {
     assign(name, value, "a number");
   }
+  void text(const std::string& name, std::string& value, const std::string&) override {
+    assign(name, value, "a text");
+  }
   void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
               const std::string&) override {
-    std::string text = names[index];
-    assign(name, text, "one of: " + join(names));
+    std::string chosen = names[index];
+    assign(name, chosen, "one of: " + join(names));
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (names[i] == text) {
+      if (names[i] == chosen) {
         index = i;
         return;
       }
     }
-    throw ParameterError(source_ + ": " + fullName(name) + " is '" + text +
+    throw ParameterError(source_ + ": " + fullName(name) + " is '" + chosen +
                          "', allowed is one of: " + join(names));
   }
 
@@ -169,6 +173,9 @@ class Documenter : public SectionedVisitor {
   void real(const std::string& name, double& value, Range<double> range, const std::string& unit,
             const std::string& doc) override {
     docs.push_back({fullName(name), "double", toText(value), toText(range), unit, doc});
+  }
+  void text(const std::string& name, std::string& value, const std::string& doc) override {
+    docs.push_back({fullName(name), "string", value, "", "", doc});
   }
   void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
               const std::string& doc) override {

@@ -31,6 +31,8 @@ class ParameterVisitor {
                        const std::string& doc) = 0;
   virtual void real(const std::string& name, double& value, Range<double> range, const std::string& unit,
                     const std::string& doc) = 0;
+  /// Free text: names of frames, topics, devices, files.
+  virtual void text(const std::string& name, std::string& value, const std::string& doc) = 0;
   /// `index` counts into `names`.
   virtual void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
                       const std::string& doc) = 0;

@@ -13,7 +13,7 @@ namespace stereo_nav {
 /// One line of documentation, as printed by the tools and written into docs/.
 struct ParameterDoc {
   std::string name;           ///< with its sections, e.g. `corners.threshold`
-  std::string type;           ///< bool, int, double, or the list of choices
+  std::string type;           ///< bool, int, double, string or choice
   std::string default_value;  ///< the value in the struct when it was described
   std::string range;          ///< e.g. `1 to 255`
   std::string unit;           ///< empty for pure numbers

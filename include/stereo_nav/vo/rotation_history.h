@@ -30,13 +30,16 @@ class RotationHistory {
   /// Attitude (world <- IMU) at an instant, where the samples carry one.
   std::optional<Eigen::Quaterniond> attitude(double time_s) const;
 
+  /// Angular velocity at an instant, rad/s in the IMU frame, where the samples carry one.
+  std::optional<Eigen::Vector3d> angularVelocity(double time_s) const;
+
   /// Mean specific force of the samples in [from_s, to_s], IMU frame, m/s^2; nothing without accelerometer
   /// samples.
   std::optional<Eigen::Vector3d> meanAcceleration(double from_s, double to_s) const;
 
  private:
-  bool covers(double time_s) const;
-  Eigen::Vector3d rateAt(double time_s) const;
+  bool covers(double from_s, double to_s) const;
+  std::optional<Eigen::Matrix3d> integrateRates(double from_s, double to_s) const;
 
   std::deque<ImuSample> samples_;
 };

@@ -21,12 +21,14 @@ struct Outer {
   double max_depth_m = 10.0;
   bool enabled = true;
   Method method = Method::kDistance;
+  std::string frame = "odom";
   void describe(ParameterVisitor& visitor) {
     visitSection(visitor, "corners", corners);
     visitor.real("max_depth_m", max_depth_m, {0.1, 100.0}, "m", "farthest point used");
     visitor.flag("enabled", enabled, "whether it runs");
     visitEnum(visitor, "method", method, {{"distance", Method::kDistance}, {"per_axis", Method::kPerAxis}},
               "test");
+    visitor.text("frame", frame, "name of a frame");
   }
 };
 
@@ -42,11 +44,12 @@ std::string messageOf(const std::string& yaml) {
 
 TEST(Parameters, ReadsNestedValuesAndKeepsDefaultsOfTheRest) {
   Outer params;
-  readParameters(YAML::Load("{corners: {threshold: 7}, method: per_axis, enabled: false}"), "test.yaml",
-                 params);
+  readParameters(YAML::Load("{corners: {threshold: 7}, method: per_axis, enabled: false, frame: map}"),
+                 "test.yaml", params);
   EXPECT_EQ(params.corners.threshold, 7);
   EXPECT_EQ(params.method, Method::kPerAxis);
   EXPECT_FALSE(params.enabled);
+  EXPECT_EQ(params.frame, "map");
   EXPECT_EQ(params.max_depth_m, 10.0);
 }
 
@@ -78,11 +81,12 @@ TEST(Parameters, ValuesSetInCodeAreChecked) {
 
 TEST(Parameters, DocumentationListsEveryFieldWithItsDefault) {
   const auto docs = documentParameters(Outer());
-  ASSERT_EQ(docs.size(), 4u);
+  ASSERT_EQ(docs.size(), 5u);
   EXPECT_EQ(docs[0].name, "corners.threshold");
   EXPECT_EQ(docs[0].default_value, "20");
   EXPECT_EQ(docs[0].range, "1 to 255");
   EXPECT_EQ(docs[3].default_value, "distance");
+  EXPECT_EQ(docs[4].type, "string");
 }
 
 }  // namespace

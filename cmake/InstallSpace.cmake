@@ -1,0 +1,16 @@
+# Before find_package(catkin): the setup files of a standalone install.
+#
+# catkin installs them under the prefix of the configuration (/usr/local unless told), even where
+# `cmake --install BUILD_DIR --prefix PREFIX` names another; these follow the prefix. In a catkin workspace they are
+# the workspace's business, in a Debian package nobody's.
+if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR AND NOT CATKIN_BUILD_BINARY_PACKAGE
+   AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(CATKIN_INSTALL_INTO_PREFIX_ROOT FALSE)
+  set(setup_files_dir ${CMAKE_BINARY_DIR}/catkin_generated/installspace)
+  file(WRITE ${setup_files_dir}/.catkin "")  # makes the prefix a catkin workspace
+  foreach(file .catkin _setup_util.py env.sh setup.bash setup.sh setup.zsh local_setup.bash local_setup.sh
+      local_setup.zsh)
+    install(CODE "file(INSTALL \"${setup_files_dir}/${file}\" DESTINATION \"\${CMAKE_INSTALL_PREFIX}\"
+      USE_SOURCE_PERMISSIONS)")
+  endforeach()
+endif()

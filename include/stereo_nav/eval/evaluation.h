@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stereo_nav/eval/timing.h"
+#include "stereo_nav/eval/trajectory.h"
+
+namespace stereo_nav::eval {
+
+/// What the odometry made of one input frame.
+struct FrameRecord {
+  double time_s = 0.0;                           ///< stamp of the left image
+  std::optional<Eigen::Isometry3d> T_odom_base;  ///< absent: the frame is lost
+  unsigned features = 0;
+  unsigned inliers = 0;
+  FrameTiming timing;
+};
+
+struct EvaluationInput {
+  std::string input;                ///< as named on the command line; goes into the summary
+  std::string config;               ///< likewise
+  std::vector<FrameRecord> frames;  ///< every input frame, in order of time
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< of the left optical frame
+  Trajectory ground_truth;  ///< of base_link in any fixed frame; empty: no ground truth (see ofOtherBody())
+};
+
+/// summary.json. Numbers that cannot be known (no ground truth, path too short) are NaN, `null` in the file.
+///
+/// A frame without a pose keeps the last one (before the first pose: the start) and counts as lost. Absolute,
+/// relative and end errors and the path are those of the left camera; the errors per axis are those of
+/// base_link.
+struct EvaluationSummary {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  std::size_t frames = 0;
+  std::size_t frames_lost = 0;
+  double path_length_m =
+      kUnknown;                  ///< of the ground truth at the frames; of the estimate where there is none
+  double ate_rmse_m = kUnknown;  ///< positions after SE(3) alignment without scale
+  double rpe_translation_percent = kUnknown;  ///< relativeError()
+  double rpe_rotation_deg_per_m = kUnknown;
+  std::vector<double> segment_lengths_m;
+  double end_error_percent =
+      kUnknown;  ///< distance at the last frame, first poses laid together, of the path
+  double rmse_x_m =
+      kUnknown;  ///< along an axis of `odom`, first poses laid together, as the thesis reports it
+  double rmse_y_m = kUnknown;
+  double mae_x_m = kUnknown;
+  double mae_y_m = kUnknown;
+  double inliers_mean = kUnknown;   ///< over all frames but the first, which has no motion
+  double features_mean = kUnknown;  ///< over all frames
+  std::string config;
+  std::string input;
+  std::size_t frames_with_ground_truth = 0;  ///< those the errors are taken over
+};
+
+/// One frame as the report draws it.
+struct FrameErrors {
+  double time_s = 0.0;  ///< since the first frame
+  bool lost = false;
+  unsigned features = 0;
+  unsigned inliers = 0;
+  Eigen::Vector3d position_m;                               ///< base_link in odom, held while lost
+  std::optional<Eigen::Vector3d> ground_truth_m;            ///< base_link in odom, first poses laid together
+  double absolute_error_m = EvaluationSummary::kUnknown;    ///< left camera, after SE(3) alignment
+  double rotation_error_deg = EvaluationSummary::kUnknown;  ///< first poses laid together
+};
+
+struct Evaluation {
+  EvaluationSummary summary;
+  std::vector<FrameErrors> frames;
+};
+
+/// Throws EvaluationError when there is no frame, or when there is ground truth but fewer than three frames
+/// find a pose in it; the message names both intervals of time.
+Evaluation evaluate(const EvaluationInput& input);
+
+/// base_link in odom, one pose for each frame that has one: trajectory.tum.
+Trajectory estimatedTrajectory(const EvaluationInput& input);
+
+/// The left camera in its first pose, one pose for every frame (lost ones repeat): trajectory.kitti.
+Trajectory cameraTrajectory(const EvaluationInput& input);
+
+/// Text of summary.json: fixed order of the keys, numbers in the shortest form that reads back as the same
+/// double.
+std::string toJson(const EvaluationSummary& summary);
+
+}  // namespace stereo_nav::eval

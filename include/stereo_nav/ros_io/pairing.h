@@ -1,0 +1,27 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "stereo_nav/StereoSync.h"
+
+namespace stereo_nav::ros_io {
+
+/// Indices into the lists of left and right image stamps, and the true exposure times.
+struct StampPair {
+  std::size_t left;
+  std::size_t right;
+  double left_time_s;
+  double right_time_s;
+};
+
+/// Which images of a recording belong together, in order of the left stamps; each image at most once.
+/// With `sync` messages they decide: an image belongs to a message by the pair's common stamp or by its own
+/// true stamp. Without, left and right pair by nearest stamp, up to half the left camera's median period
+/// apart, closest pairs first. Both lists of stamps must be in order of time.
+std::vector<StampPair> pairStamps(const std::vector<ros::Time>& left, const std::vector<ros::Time>& right,
+                                  const std::vector<StereoSync>& sync);
+
+}  // namespace stereo_nav::ros_io

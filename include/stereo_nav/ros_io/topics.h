@@ -1,0 +1,30 @@
+#pragma once
+
+/// Names that the nodes, the tools and the recordings share. All relative, so that a namespace holds a whole
+/// rig.
+namespace stereo_nav::ros_io::topics {
+
+constexpr const char* kLeftImage = "camera/left/image_raw";
+constexpr const char* kRightImage = "camera/right/image_raw";
+constexpr const char* kLeftInfo = "camera/left/camera_info";
+constexpr const char* kRightInfo = "camera/right/camera_info";
+constexpr const char* kSync = "camera/sync";
+constexpr const char* kImu = "imu/data";
+/// The thesis' topic: orientation without header.
+constexpr const char* kImuQuaternion = "imu_quat";
+constexpr const char* kGroundTruth = "ground_truth/odom";
+/// Simulated recordings: the moments at which the robot passes the way-points of its path.
+constexpr const char* kWaypoint = "ground_truth/waypoint";
+constexpr const char* kTfStatic = "tf_static";
+
+}  // namespace stereo_nav::ros_io::topics
+
+namespace stereo_nav::ros_io::frames {
+
+constexpr const char* kOdom = "odom";
+constexpr const char* kBase = "base_link";
+/// Both cameras' images and infos carry it: image_geometry::StereoCameraModel asserts that the two are equal.
+constexpr const char* kLeftOptical = "camera_left_optical";
+constexpr const char* kImu = "imu_link";
+
+}  // namespace stereo_nav::ros_io::frames

@@ -1,0 +1,183 @@
+#include "figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "stereo_nav/eval/timing.h"
+
+namespace stereo_nav::eval {
+namespace {
+
+using Row = std::vector<double>;
+using RowOf = std::function<Row(const FrameErrors&)>;
+constexpr double kNone = EvaluationSummary::kUnknown;  // gnuplot leaves a gap in the line
+
+std::string toText(double value) {
+  if (!std::isfinite(value)) return "NaN";
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.7g", value);
+  return buffer;
+}
+
+/// A gnuplot data block `$name`.
+std::string dataBlock(const std::string& name, const std::vector<Row>& rows) {
+  std::string text = "$" + name + " << EOD\n";
+  for (const auto& row : rows) {
+    for (const double value : row) text += toText(value) + " ";
+    text += "\n";
+  }
+  return text + "EOD\n";
+}
+
+std::string dataBlock(const std::string& name, const std::vector<FrameErrors>& frames, const RowOf& row_of) {
+  std::vector<Row> rows;
+  for (const auto& frame : frames) rows.push_back(row_of(frame));
+  return dataBlock(name, rows);
+}
+
+std::string header(const std::string& name, int height_px) {
+  return "set terminal svg size 960," + std::to_string(height_px) + " dynamic font 'Helvetica,13' name '" +
+         name +
+         "' background rgb 'white'\n"
+         "set border 3 lc rgb '#5f6b76'\nset tics nomirror out scale 0.6 textcolor rgb '#3a444d'\n"
+         "set grid lc rgb '#dfe4e8' lw 1 dt 1\nset key outside top center horizontal samplen 2\n"
+         "set style line 1 lc rgb '#1668b3' lw 2\nset style line 2 lc rgb '#9aa4ad' lw 4\n"
+         "set style line 3 lc rgb '#c9302c' pt 7 ps 0.5\nset style line 4 lc rgb '#2b8a57' lw 2\n"
+         "set style line 5 lc rgb '#b36b00' lw 2\n";
+}
+
+bool hasGroundTruth(const Evaluation& evaluation) {
+  return evaluation.summary.frames_with_ground_truth > 0;
+}
+
+/// Positions in columns x y z, all of base_link in odom.
+std::string pathData(const Evaluation& evaluation) {
+  const auto position = [](const FrameErrors& frame) -> Row {
+    return {frame.time_s, frame.position_m.x(), frame.position_m.y(), frame.position_m.z()};
+  };
+  const auto lost = [&position](const FrameErrors& frame) -> Row {
+    return frame.lost ? position(frame) : Row{frame.time_s, kNone, kNone, kNone};
+  };
+  const auto truth = [](const FrameErrors& frame) -> Row {
+    const Eigen::Vector3d p = frame.ground_truth_m.value_or(Eigen::Vector3d::Constant(kNone));
+    return {frame.time_s, p.x(), p.y(), p.z()};
+  };
+  return dataBlock("estimate", evaluation.frames, position) + dataBlock("lost", evaluation.frames, lost) +
+         dataBlock("truth", evaluation.frames, truth);
+}
+
+/// Estimate over ground truth, with lost frames marked; `columns` as gnuplot names them, e.g. "2:3".
+std::string pathPlot(const Evaluation& evaluation, const std::string& columns) {
+  std::string plot = "plot ";
+  if (hasGroundTruth(evaluation)) {
+    plot += "$truth using " + columns + " with lines ls 2 title 'ground truth', ";
+  }
+  plot += "$estimate using " + columns + " with lines ls 1 title 'estimate'";
+  if (evaluation.summary.frames_lost > 0) {
+    plot += ", $lost using " + columns + " with points ls 3 title 'lost (pose held)'";
+  }
+  return plot;
+}
+
+Figure topView(const Evaluation& evaluation) {
+  const std::string start =
+      ", $estimate every ::0::0 using 2:3 with points pt 6 ps 1.2 lw 2 lc rgb '#20262b' "
+      "title 'start'\n";
+  return {"path_top",
+          "Path from above: base_link in odom, ground truth laid onto the first pose. Equal scales.",
+          header("path_top", 560) + pathData(evaluation) +
+              "set size ratio -1\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
+              "set xlabel 'x forward [m]'\nset ylabel 'y left [m]'\n" +
+              pathPlot(evaluation, "2:3") + start};
+}
+
+Figure heightView(const Evaluation& evaluation) {
+  return {"path_height", "Height over time: z of base_link in odom, ground truth laid onto the first pose.",
+          header("path_height", 280) + pathData(evaluation) +
+              "set xlabel 'time [s]'\nset ylabel 'z up [m]'\n" + pathPlot(evaluation, "1:4") + "\n"};
+}
+
+Figure errorsOverTime(const Evaluation& evaluation) {
+  const auto errors = [](const FrameErrors& frame) -> Row {
+    return {frame.time_s, frame.absolute_error_m, frame.rotation_error_deg};
+  };
+  return {
+      "error",
+      "Error over time. Position: of the left camera, after SE(3) alignment without scale (what the absolute "
+      "error sums up). Rotation: first poses laid together, so drift grows from zero.",
+      header("error", 440) + dataBlock("errors", evaluation.frames, errors) +
+          "set multiplot layout 2,1\nset yrange [0:*]\nset lmargin 10\nunset key\n"
+          "set ylabel 'position [m]'\nplot $errors using 1:2 with lines ls 1\n"
+          "set xlabel 'time [s]'\nset ylabel 'rotation [deg]'\nplot $errors using 1:3 with lines ls 5\n"
+          "unset multiplot\n"};
+}
+
+Figure featuresOverTime(const Evaluation& evaluation) {
+  const auto counts = [](const FrameErrors& frame) -> Row {
+    return {frame.time_s, static_cast<double>(frame.features), static_cast<double>(frame.inliers),
+            frame.lost ? 0.0 : kNone};
+  };
+  std::string plot =
+      "plot $counts using 1:2 with lines ls 1 title 'features', "
+      "$counts using 1:3 with lines ls 4 title 'inliers'";
+  if (evaluation.summary.frames_lost > 0) {
+    plot += ", $counts using 1:4 with points ls 3 title 'frame lost'";
+  }
+  return {"features", "Features and inliers of each frame.",
+          header("features", 300) + dataBlock("counts", evaluation.frames, counts) +
+              "set yrange [0:*]\nset xlabel 'time [s]'\nset ylabel 'count'\n" + plot + "\n"};
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result;
+}
+
+double stageTime(const FrameTiming& timing, const std::string& stage) {
+  double total_ms = 0.0;
+  for (const auto& [name, ms] : timing.stages_ms) total_ms += name == stage ? ms : 0.0;
+  return total_ms;
+}
+
+/// Stages piled on each other, the last one drawn first so that the earlier ones lie on top of it.
+Figure stagesOverTime(const Evaluation& evaluation, const std::vector<FrameRecord>& records) {
+  std::vector<FrameTiming> timings;
+  for (const auto& record : records) timings.push_back(record.timing);
+  const auto stages = summariseTiming(timings).stage_medians_ms;
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    Row row{evaluation.frames[i].time_s, timings[i].frame_ms};
+    double pile_ms = 0.0;
+    for (const auto& [stage, median_ms] : stages) row.push_back(pile_ms += stageTime(timings[i], stage));
+    rows.push_back(row);
+  }
+  const std::vector<std::string> colours = {"#1668b3", "#e0a03a", "#2b8a57", "#8a5fb0", "#c9524e",
+                                            "#4fa6a6", "#8c6d46", "#d583b5", "#6f7b85", "#a8b33a"};
+  std::string plot;
+  for (std::size_t s = stages.size(); s-- > 0;) {
+    char median[32];
+    std::snprintf(median, sizeof median, " (%.2f ms)", stages[s].second);
+    plot += "$times using 1:" + std::to_string(s + 3) + " with filledcurves y1=0 lc rgb '" +
+            colours[s % colours.size()] + "' title '" + escaped(stages[s].first) + median + "', ";
+  }
+  return {"stages", "Time per stage, one on top of the other, with their medians; line: the whole frame.",
+          header("stages", 380) + dataBlock("times", rows) +
+              "set key outside right center vertical noenhanced\nset yrange [0:*]\nset style fill solid\n"
+              "set xlabel 'time [s]'\nset ylabel 'time per frame [ms]'\nplot " +
+              plot + "$times using 1:2 with lines lc rgb '#20262b' lw 1 title 'whole frame'\n"};
+}
+
+}  // namespace
+
+std::vector<Figure> makeFigures(const Evaluation& evaluation, const std::vector<FrameRecord>& records) {
+  std::vector<Figure> figures = {topView(evaluation), heightView(evaluation)};
+  if (hasGroundTruth(evaluation)) figures.push_back(errorsOverTime(evaluation));
+  figures.push_back(featuresOverTime(evaluation));
+  figures.push_back(stagesOverTime(evaluation, records));
+  return figures;
+}
+
+}  // namespace stereo_nav::eval

@@ -1,0 +1,80 @@
+#include "stereo_nav/eval/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace stereo_nav::eval {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / M_PI;
+
+/// Path from the first pose to each pose, m.
+std::vector<double> pathTo(const Poses& poses) {
+  std::vector<double> path_m(poses.size(), 0.0);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    path_m[i] = path_m[i - 1] + (poses[i].translation() - poses[i - 1].translation()).norm();
+  }
+  return path_m;
+}
+
+}  // namespace
+
+double rmse(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+  if (a.empty() || a.size() != b.size()) {
+    throw std::invalid_argument("rmse() needs two lists of equal, nonzero length");
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+std::vector<double> segmentLengths(double path_length_m) {
+  std::vector<double> lengths_m;
+  for (const double length_m : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0}) {
+    if (length_m >= path_length_m / 12.0 && length_m <= path_length_m / 2.0) lengths_m.push_back(length_m);
+  }
+  return lengths_m;
+}
+
+RelativeError relativeError(const Poses& ground_truth, const Poses& estimate,
+                            const std::vector<double>& lengths_m) {
+  if (ground_truth.size() != estimate.size()) {
+    throw std::invalid_argument("relativeError() needs two lists of equal length");
+  }
+  const auto path_m = pathTo(ground_truth);
+  double translation = 0.0;
+  double rotation_deg_per_m = 0.0;
+  std::size_t count = 0;
+  for (const double length_m : lengths_m) {
+    for (std::size_t i = 0; i < path_m.size(); ++i) {
+      const auto reached = std::find_if(path_m.begin() + static_cast<std::ptrdiff_t>(i), path_m.end(),
+                                        [&](double to_m) { return to_m - path_m[i] >= length_m; });
+      if (reached == path_m.end()) break;
+      const auto j = static_cast<std::size_t>(reached - path_m.begin());
+      const Eigen::Isometry3d truth = ground_truth[i].inverse() * ground_truth[j];
+      const Eigen::Isometry3d error = (estimate[i].inverse() * estimate[j]).inverse() * truth;
+      translation += error.translation().norm() / length_m;
+      rotation_deg_per_m += angleDeg(error.linear()) / length_m;
+      ++count;
+    }
+  }
+  const double n = count == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(count);
+  return {100.0 * translation / n, rotation_deg_per_m / n, lengths_m};
+}
+
+double angleDeg(const Eigen::Matrix3d& R) {
+  return Eigen::AngleAxisd(R).angle() * kDegreesPerRadian;  // goes over atan2, unlike acos of the trace
+}
+
+double percentile(std::vector<double> samples, double share) {
+  if (samples.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(samples.begin(), samples.end());
+  const double position = share * static_cast<double>(samples.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const std::size_t above = std::min(below + 1, samples.size() - 1);
+  return samples[below] + (position - static_cast<double>(below)) * (samples[above] - samples[below]);
+}
+
+}  // namespace stereo_nav::eval

@@ -1,0 +1,115 @@
+#include "stereo_nav/sim/imu_model.h"
+
+#include <cmath>
+
+#include "stereo_nav/sim/random.h"
+
+namespace stereo_nav::sim {
+namespace {
+
+constexpr double kRadPerDeg = M_PI / 180.0;
+const Eigen::Vector3d kGravity_world(0.0, 0.0, -9.81);
+
+Eigen::Vector3d normalVector(RandomStream& random) {
+  const double x = random.normal(), y = random.normal();
+  return {x, y, random.normal()};
+}
+
+/// Yaw, pitch, roll of a rotation by yaw about z, then pitch about y, then roll about x.
+Eigen::Vector3d yawPitchRoll(const Eigen::Matrix3d& R) {
+  return {std::atan2(R(1, 0), R(0, 0)), std::asin(-R(2, 0)), std::atan2(R(2, 1), R(2, 2))};
+}
+
+Eigen::Quaterniond attitude(const Eigen::Vector3d& yaw_pitch_roll) {
+  return Eigen::AngleAxisd(yaw_pitch_roll.x(), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(yaw_pitch_roll.y(), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(yaw_pitch_roll.z(), Eigen::Vector3d::UnitX());
+}
+
+double quantise(double value, double step) { return step > 0.0 ? step * std::round(value / step) : value; }
+
+vo::ImuSample thesisSample(const ImuParams& params, const BaseState& state, double time_s, RandomStream& random) {
+  Eigen::Vector3d angles_deg = yawPitchRoll(state.T_world_base.linear()) / kRadPerDeg;
+  angles_deg += params.angle_noise_deg * normalVector(random);
+  angles_deg.x() += params.power_on_yaw_deg + params.yaw_drift_dps * time_s;
+  for (double& angle : angles_deg) angle = quantise(angle, params.quantisation_deg);
+  vo::ImuSample sample;
+  sample.q_world_imu = attitude(angles_deg * kRadPerDeg);
+  return sample;
+}
+
+Eigen::Vector3d specificForce(const BaseState& state) {
+  return state.T_world_base.linear().transpose() * (state.acceleration_world - kGravity_world);
+}
+
+vo::ImuSample rawSample(const ImuParams& params, const BaseState& state, const Eigen::Vector3d& gyro_bias_dps,
+                        const Eigen::Vector3d& accel_bias, RandomStream& random) {
+  const double root_rate = std::sqrt(params.rate_hz);  // white noise of a density, sampled
+  vo::ImuSample sample;
+  const Eigen::Vector3d gyro_error = gyro_bias_dps + params.gyro_noise_dps_rthz * root_rate * normalVector(random);
+  sample.angular_velocity = state.angular_velocity_base + kRadPerDeg * gyro_error;
+  sample.linear_acceleration =
+      specificForce(state) + accel_bias + params.accel_noise_mps2_rthz * root_rate * normalVector(random);
+  return sample;
+}
+
+vo::ImuSample perfectSample(const BaseState& state) {
+  vo::ImuSample sample;
+  sample.q_world_imu = Eigen::Quaterniond(state.T_world_base.linear());
+  sample.angular_velocity = state.angular_velocity_base;
+  sample.linear_acceleration = specificForce(state);
+  return sample;
+}
+
+}  // namespace
+
+std::vector<vo::ImuSample> simulateImu(const ImuParams& params, const Trajectory& trajectory, double duration_s,
+                                       std::uint64_t seed) {
+  std::vector<vo::ImuSample> samples;
+  if (params.kind == ImuKind::kNone) return samples;
+  RandomStream random(streamKey(seed, Stream::kImu));
+  Eigen::Vector3d gyro_bias_dps = params.gyro_bias_dps * normalVector(random);
+  const Eigen::Vector3d accel_bias = params.accel_bias_mps2 * normalVector(random);
+  const auto count = static_cast<std::size_t>(std::floor(duration_s * params.rate_hz)) + 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time_s = static_cast<double>(i) / params.rate_hz;
+    const BaseState state = trajectory.state(time_s);
+    vo::ImuSample sample;
+    switch (params.kind) {
+      case ImuKind::kNone:
+        break;
+      case ImuKind::kPerfect:
+        sample = perfectSample(state);
+        break;
+      case ImuKind::kThesis:
+        sample = thesisSample(params, state, time_s, random);
+        break;
+      case ImuKind::kRaw:
+        gyro_bias_dps += params.gyro_walk_dps2_rthz / std::sqrt(params.rate_hz) * normalVector(random);
+        sample = rawSample(params, state, gyro_bias_dps, accel_bias, random);
+        break;
+    }
+    sample.time_s = params.kind == ImuKind::kPerfect ? time_s : time_s + 1e-3 * params.latency_ms;
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+void ImuParams::describe(ParameterVisitor& visitor) {
+  visitEnum(visitor, "kind", kind,
+            {{"none", ImuKind::kNone}, {"perfect", ImuKind::kPerfect}, {"thesis", ImuKind::kThesis}, {"raw", ImuKind::kRaw}},
+            "perfect: attitude and rates without error; thesis: three angles, yaw drifting; raw: gyro and accelerometer");
+  visitor.real("rate_hz", rate_hz, {1.0, 2000.0}, "Hz", "samples per second");
+  visitor.real("latency_ms", latency_ms, {0.0, 200.0}, "ms", "stamps are this late; not for a perfect one");
+  visitor.real("yaw_drift_dps", yaw_drift_dps, {-10.0, 10.0}, "deg/s", "thesis: drift of the yaw angle");
+  visitor.real("power_on_yaw_deg", power_on_yaw_deg, {-180.0, 180.0}, "deg", "thesis: yaw shown at the start");
+  visitor.real("angle_noise_deg", angle_noise_deg, {0.0, 10.0}, "deg", "thesis: standard deviation of each angle");
+  visitor.real("quantisation_deg", quantisation_deg, {0.0, 10.0}, "deg", "thesis: step of the angles");
+  visitor.real("gyro_bias_dps", gyro_bias_dps, {0.0, 10.0}, "deg/s", "raw: standard deviation of the bias of each axis");
+  visitor.real("gyro_noise_dps_rthz", gyro_noise_dps_rthz, {0.0, 1.0}, "deg/s/sqrt(Hz)", "raw: noise density");
+  visitor.real("gyro_walk_dps2_rthz", gyro_walk_dps2_rthz, {0.0, 1.0}, "deg/s^2/sqrt(Hz)", "raw: random walk of the bias");
+  visitor.real("accel_bias_mps2", accel_bias_mps2, {0.0, 5.0}, "m/s^2", "raw: standard deviation of the bias of each axis");
+  visitor.real("accel_noise_mps2_rthz", accel_noise_mps2_rthz, {0.0, 1.0}, "m/s^2/sqrt(Hz)", "raw: noise density");
+}
+
+}  // namespace stereo_nav::sim

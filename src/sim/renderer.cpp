@@ -1,0 +1,101 @@
+#include "stereo_nav/sim/renderer.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "ray_span.h"
+#include "rendered_frame.h"
+
+namespace stereo_nav::sim {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Where in the pixel sample `index` of `count` lies, in [-0.5, 0.5): a lattice with all columns and all rows
+/// different, in another order than the times of the samples, and with mean 0.
+Eigen::Vector2d offsetInPixel(int index, int count) {
+  const int shuffled_x = (index % 2) * ((count + 1) / 2) + index / 2;
+  const int stride_y = count >= 4 ? count / 2 + (count % 4 == 0 ? 1 : 0) : 1;
+  const int shuffled_y = count == 2 ? 1 - index : (index * stride_y + count / 2) % count;
+  const double scale = 1.0 / count;
+  return {(shuffled_x + 0.5) * scale - 0.5, (shuffled_y + 0.5) * scale - 0.5};
+}
+
+}  // namespace
+
+Renderer::Renderer(const Scene& scene, const CameraCalibration& calibration, int samples)
+    : scene_(scene),
+      width_(calibration.width),
+      height_(calibration.height),
+      stride_((calibration.width + kTile - 1) / kTile * kTile),
+      samples_(samples),
+      ray_pitch_(static_cast<float>(1.0 / calibration.K(0, 0))) {
+  static_assert(kTile == RaySpan::kLength, "a tile's row is cast as one span");
+  if (samples < 1 || samples > 16) {
+    throw std::invalid_argument("renderer: samples per pixel is " + std::to_string(samples) + ", allowed is 1 to 16");
+  }
+  computeRays(calibration);
+  computeTileBounds();
+}
+
+void Renderer::computeRays(const CameraCalibration& calibration) {
+  ray_x_.reserve(static_cast<std::size_t>(samples_ * height_ * stride_));
+  ray_y_.reserve(ray_x_.capacity());
+  for (int sample = 0; sample < samples_; ++sample) {
+    const Eigen::Vector2d offset = offsetInPixel(sample, samples_);
+    for (int row = 0; row < height_; ++row) {
+      for (int column = 0; column < stride_; ++column) {
+        // Past the right border the last ray is repeated; those samples are thrown away.
+        const Eigen::Vector2d pixel(std::min(column, width_ - 1), row);
+        const Eigen::Vector2d ray = calibration.undistort(pixel + offset);
+        ray_x_.push_back(static_cast<float>(ray.x()));
+        ray_y_.push_back(static_cast<float>(ray.y()));
+      }
+    }
+  }
+}
+
+void Renderer::computeTileBounds() {
+  for (int top = 0; top < height_; top += kTile) {
+    for (int left = 0; left < stride_; left += kTile) {
+      TileBounds bounds{kInfinity, -kInfinity, kInfinity, -kInfinity};
+      for (int sample = 0; sample < samples_; ++sample) {
+        for (int row = top; row < std::min(top + kTile, height_); ++row) {
+          const std::size_t start = static_cast<std::size_t>((sample * height_ + row) * stride_ + left);
+          for (std::size_t i = start; i < start + kTile; ++i) {
+            bounds.x_min = std::min(bounds.x_min, ray_x_[i]);
+            bounds.x_max = std::max(bounds.x_max, ray_x_[i]);
+            bounds.y_min = std::min(bounds.y_min, ray_y_[i]);
+            bounds.y_max = std::max(bounds.y_max, ray_y_[i]);
+          }
+        }
+      }
+      tiles_.push_back(bounds);
+    }
+  }
+}
+
+cv::Mat Renderer::render(const CameraPath& T_world_camera, const Shutter& shutter) const {
+  RenderedFrame frame(scene_, T_world_camera, shutter, height_, samples_);
+  cv::Mat light = cv::Mat::zeros(height_, width_, CV_32FC1);
+  std::size_t tile = 0;
+  for (int top = 0; top < height_; top += kTile) {
+    const int bottom = std::min(top + kTile, height_);
+    for (int left = 0; left < stride_; left += kTile, ++tile) {
+      frame.selectVisible(tiles_[tile], ray_pitch_);
+      for (int row = top; row < bottom; ++row) {
+        for (int sample = 0; sample < samples_; ++sample) {
+          const auto rays = static_cast<std::size_t>((sample * height_ + row) * stride_ + left);
+          const RaySpan span = frame.cast(ray_x_.data() + rays, ray_y_.data() + rays, row, sample);
+          const Footprint footprint{ray_pitch_, (static_cast<float>(sample) + 0.5f) / static_cast<float>(samples_)};
+          shadeSpan(frame.candidates(row, sample), span, std::min(kTile, width_ - left), footprint,
+                    1.0f / static_cast<float>(samples_), light.ptr<float>(row) + left);
+        }
+      }
+    }
+  }
+  return light;
+}
+
+}  // namespace stereo_nav::sim

@@ -1,0 +1,73 @@
+#include "evaluate_options.h"
+
+#include <boost/program_options.hpp>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+#include "package_files.h"
+
+namespace stereo_nav::tools {
+namespace {
+
+namespace po = boost::program_options;
+
+void checkValues(const EvaluateOptions& options) {
+  if (!std::isfinite(options.part.start_s) || options.part.start_s < 0.0) {
+    throw ros_io::InputError("--start must be a number of seconds, 0 or more");
+  }
+  if (!(options.part.duration_s > 0.0))
+    throw ros_io::InputError("--duration must be a number of seconds above 0");
+  if (options.repeat < 1) throw ros_io::InputError("--repeat must be 1 or more");
+}
+
+}  // namespace
+
+std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
+  EvaluateOptions options;
+  po::options_description visible(
+      "usage: evaluate BAG [options]\n"
+      "Runs the odometry on a recording as fast as it can and measures it against ground truth");
+  visible.add_options()        //
+      ("help,h", "this text")  //
+      ("config", po::value<std::string>()->default_value("vo.yaml"),
+       "parameters of the odometry: a path, or a file of the package's config folder")  //
+      ("ground-truth", po::value<std::string>(),
+       "TUM trajectory file, or topic in the bag (default: ground_truth/odom if the bag has it)")  //
+      ("ground-truth-frame", po::value<std::string>(),
+       "frame whose poses the ground truth gives (default: the topic's child frame, else base_link)")   //
+      ("output", po::value<std::string>(), "folder for the results (default: NAME_OF_BAG_evaluation)")  //
+      ("start", po::value<double>(&options.part.start_s), "seconds of the recording to skip")           //
+      ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")      //
+      ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
+  po::options_description all;
+  all.add(visible).add_options()("bag", po::value<std::string>());
+  po::positional_options_description positional;
+  positional.add("bag", 1);
+
+  po::variables_map values;
+  try {
+    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
+    po::notify(values);
+  } catch (const po::error& error) {
+    throw ros_io::InputError(std::string(error.what()) + "; see evaluate --help");
+  }
+  if (values.count("help") != 0) {
+    std::cout << visible << "\n";
+    return std::nullopt;
+  }
+  if (values.count("bag") == 0) throw ros_io::InputError("no BAG given; see evaluate --help");
+  options.bag = values["bag"].as<std::string>();
+  options.config = configFile(values["config"].as<std::string>());
+  if (values.count("ground-truth") != 0) options.ground_truth = values["ground-truth"].as<std::string>();
+  if (values.count("ground-truth-frame") != 0) {
+    options.ground_truth_frame = values["ground-truth-frame"].as<std::string>();
+  }
+  options.output = values.count("output") != 0
+                       ? values["output"].as<std::string>()
+                       : std::filesystem::path(options.bag).stem().string() + "_evaluation";
+  checkValues(options);
+  return options;
+}
+
+}  // namespace stereo_nav::tools

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "stereo_nav/ros_io/recording.h"
+
+namespace stereo_nav::tools {
+
+struct EvaluateOptions {
+  std::string bag;
+  std::string config;  ///< path of the odometry's parameter file
+  std::optional<std::string>
+      ground_truth;  ///< TUM file or topic; absent: ground_truth/odom if the bag has it
+  std::optional<std::string> ground_truth_frame;
+  std::string output;  ///< folder
+  ros_io::RecordingOptions part;
+  int repeat = 1;
+};
+
+/// Nothing when help was asked for and printed. Throws ros_io::InputError with one line for bad arguments.
+std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv);
+
+}  // namespace stereo_nav::tools

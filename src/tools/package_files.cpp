@@ -1,0 +1,24 @@
+#include "package_files.h"
+
+#include <ros/package.h>
+
+#include <filesystem>
+
+#include "stereo_nav/ros_io/conversions.h"
+
+namespace stereo_nav::tools {
+
+std::string configFile(const std::string& name) {
+  if (std::filesystem::exists(name)) return name;
+  const std::string package = ros::package::getPath("stereo_nav");
+  if (package.empty()) {
+    throw ros_io::InputError(
+        "no file " + name +
+        ", and the package stereo_nav is not on the ROS package path; source its setup.bash");
+  }
+  const std::string in_package = package + "/config/" + name;
+  if (std::filesystem::exists(in_package)) return in_package;
+  throw ros_io::InputError("no file " + name + ", neither here nor in " + package + "/config");
+}
+
+}  // namespace stereo_nav::tools

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace stereo_nav::tools {
+
+/// `name` itself where such a file exists, else the file of that name in the package's config folder.
+/// Throws ros_io::InputError that names both places.
+std::string configFile(const std::string& name);
+
+}  // namespace stereo_nav::tools

@@ -1,0 +1,135 @@
+#include "support/fixture_bag.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Imu.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "stereo_nav/StereoSync.h"
+#include "stereo_nav/ros_io/topics.h"
+#include "stereo_nav/vo/base_pose.h"
+#include "support/textured_room.h"
+
+namespace stereo_nav::test {
+namespace {
+
+namespace topics = ros_io::topics;
+namespace frames = ros_io::frames;
+
+constexpr double kStart_s = 1000.0;
+
+ros::Time stampOf(double time_s) {
+  return ros::Time(kStart_s + time_s);
+}
+
+/// Camera of the thesis' mounting, 0.283 m above the ground; x right, y down, z forward.
+Eigen::Isometry3d baseToCamera() {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T_base_camera.translation() << 0.10, 0.06, 0.283;
+  return T_base_camera;
+}
+
+Eigen::Isometry3d basePoseAt(double time_s) {
+  return vo::basePose(baseToCamera(), roomDrive(time_s));
+}
+
+sensor_msgs::Image imageOf(const cv::Mat& grey, const ros::Time& stamp) {
+  std_msgs::Header header;
+  header.stamp = stamp;
+  header.frame_id = frames::kLeftOptical;
+  return *cv_bridge::CvImage(header, "mono8", grey).toImageMsg();
+}
+
+void writeTransforms(rosbag::Bag& bag) {
+  tf2_msgs::TFMessage message;
+  geometry_msgs::TransformStamped camera = tf2::eigenToTransform(baseToCamera());
+  camera.header.stamp = stampOf(0.0);
+  camera.header.frame_id = frames::kBase;
+  camera.child_frame_id = frames::kLeftOptical;
+  geometry_msgs::TransformStamped imu = tf2::eigenToTransform(Eigen::Isometry3d::Identity());
+  imu.header = camera.header;
+  imu.child_frame_id = frames::kImu;
+  message.transforms = {camera, imu};
+  bag.write(std::string("/") + topics::kTfStatic, stampOf(0.0), message);
+}
+
+void writeFrame(rosbag::Bag& bag, const FixtureBag& fixture, int index) {
+  const vo::StereoCalibration c = roomCalibration();
+  const double left_s = fixture.period_s * index;
+  const double right_s = left_s + fixture.right_lag_s;
+  const auto images = TexturedRoom().renderPair(roomDrive(left_s), roomDrive(right_s), c);
+  sensor_msgs::CameraInfo left_info = cameraInfo(c, false);
+  sensor_msgs::CameraInfo right_info = cameraInfo(c, true);
+  left_info.header.stamp = stampOf(left_s);
+  right_info.header.stamp = stampOf(right_s);
+  bag.write(topics::kLeftImage, stampOf(left_s), imageOf(images.left, stampOf(left_s)));
+  bag.write(topics::kLeftInfo, stampOf(left_s), left_info);
+  bag.write(topics::kRightImage, stampOf(right_s), imageOf(images.right, stampOf(right_s)));
+  bag.write(topics::kRightInfo, stampOf(right_s), right_info);
+  StereoSync sync;
+  sync.header = left_info.header;
+  sync.left_stamp = stampOf(left_s);
+  sync.right_stamp = stampOf(right_s);
+  sync.skew_s = fixture.right_lag_s;
+  sync.left_sequence = sync.right_sequence = static_cast<unsigned>(index);
+  bag.write(topics::kSync, stampOf(right_s), sync);
+}
+
+void writeGroundTruth(rosbag::Bag& bag, double time_s) {
+  nav_msgs::Odometry odometry;
+  odometry.header.stamp = stampOf(time_s);
+  odometry.header.frame_id = frames::kOdom;
+  odometry.child_frame_id = frames::kBase;
+  odometry.pose.pose = tf2::toMsg(basePoseAt(time_s));
+  bag.write(topics::kGroundTruth, stampOf(time_s), odometry);
+}
+
+void writeImu(rosbag::Bag& bag, double time_s) {
+  constexpr double kStep_s = 1e-4;
+  sensor_msgs::Imu imu;
+  imu.header.stamp = stampOf(time_s);
+  imu.header.frame_id = frames::kImu;
+  const Eigen::Isometry3d T_odom_base = basePoseAt(time_s);
+  imu.orientation = tf2::toMsg(Eigen::Quaterniond(T_odom_base.linear()));
+  const Eigen::AngleAxisd turn(
+      Eigen::Matrix3d(T_odom_base.linear().transpose() * basePoseAt(time_s + kStep_s).linear()));
+  const Eigen::Vector3d rate = turn.axis() * turn.angle() / kStep_s;
+  tf2::toMsg(rate, imu.angular_velocity);
+  imu.linear_acceleration_covariance[0] = -1.0;
+  bag.write(topics::kImu, stampOf(time_s), imu);
+}
+
+}  // namespace
+
+sensor_msgs::CameraInfo cameraInfo(const vo::StereoCalibration& c, bool right) {
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = frames::kLeftOptical;
+  info.width = static_cast<unsigned>(c.width);
+  info.height = static_cast<unsigned>(c.height);
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  const double cx = right ? c.right_cx : c.cx;
+  info.K = {c.fx, 0, cx, 0, c.fy, c.cy, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.P = {c.fx, 0, cx, right ? -c.fx * c.baseline_m : 0, 0, c.fy, c.cy, 0, 0, 0, 1, 0};
+  return info;
+}
+
+void writeFixtureBag(const std::string& path, const FixtureBag& fixture) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  if (fixture.with_transforms) writeTransforms(bag);
+  for (int i = 0; i < fixture.frames; ++i) writeFrame(bag, fixture, i);
+  const double end_s = fixture.period_s * fixture.frames + fixture.right_lag_s;
+  constexpr double kImuPeriod_s = 0.01;
+  for (double time_s = 0.0; time_s <= end_s + kImuPeriod_s; time_s += kImuPeriod_s) {
+    if (fixture.with_imu) writeImu(bag, time_s);
+    if (fixture.with_ground_truth) writeGroundTruth(bag, time_s);
+  }
+  bag.close();
+}
+
+}  // namespace stereo_nav::test
