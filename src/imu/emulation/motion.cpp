@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
-#include <sstream>
-#include <stdexcept>
 
 #include "stereo_nav/imu/attitude_filter.h"
 
@@ -29,19 +26,22 @@ Vector3d rateOf(const std::function<Quaterniond(double)>& attitude, double time_
   return rotationVector(turn) / (2.0 * kHalf_s);
 }
 
-/// The two poses around a time and where between them it lies.
-struct Bracket {
-  const RecordedPose& before;
-  const RecordedPose& after;
-  double share;
+/// The pose at a time, between the two recorded ones around it.
+struct Interpolated {
+  Vector3d position_m;
+  Quaterniond q_world_imu;
 };
 
-Bracket bracket(const std::vector<RecordedPose>& poses, double time_s) {
-  const auto after = std::upper_bound(poses.begin() + 1, poses.end() - 1, time_s,
-                                      [](double t, const RecordedPose& pose) { return t < pose.time_s; });
-  const RecordedPose& first = *(after - 1);
-  const double share = (time_s - first.time_s) / (after->time_s - first.time_s);
-  return {first, *after, std::clamp(share, 0.0, 1.0)};
+Interpolated poseAt(const eval::Trajectory& trajectory, double time_s) {
+  const auto after =
+      std::upper_bound(trajectory.begin() + 1, trajectory.end() - 1, time_s,
+                       [](double t, const eval::StampedPose& pose) { return t < pose.time_s; });
+  const auto before = after - 1;
+  const double share = std::clamp((time_s - before->time_s) / (after->time_s - before->time_s), 0.0, 1.0);
+  const Eigen::Isometry3d& T_before = before->T_world_body;
+  const Eigen::Isometry3d& T_after = after->T_world_body;
+  return {T_before.translation() + share * (T_after.translation() - T_before.translation()),
+          Quaterniond(T_before.rotation()).slerp(share, Quaterniond(T_after.rotation()))};
 }
 
 }  // namespace
@@ -88,49 +88,19 @@ Motion headerInsideFloats() {
   return constantRates({60.8636817932, 15.2159204483, 3.8039801121}, {});
 }
 
-Motion recordedMotion(std::vector<RecordedPose> poses) {
-  const auto shared = std::make_shared<const std::vector<RecordedPose>>(std::move(poses));
+Motion recordedMotion(eval::Trajectory trajectory) {
+  const auto shared = std::make_shared<const eval::Trajectory>(std::move(trajectory));
   const double start_s = shared->front().time_s;
-  const auto attitude = [shared, start_s](double t) {
-    const Bracket at = bracket(*shared, start_s + t);
-    return at.before.q_world_imu.slerp(at.share, at.after.q_world_imu);
-  };
-  const auto position = [shared, start_s](double t) -> Vector3d {
-    const Bracket at = bracket(*shared, start_s + t);
-    return at.before.position_m + at.share * (at.after.position_m - at.before.position_m);
-  };
-  const Motion rotation = rotatingMotion(attitude);
+  const Motion rotation = rotatingMotion([=](double t) { return poseAt(*shared, start_s + t).q_world_imu; });
   return [=](double t) {
     constexpr double kHalf_s = 0.1;
+    const auto position = [&](double at_s) { return poseAt(*shared, start_s + at_s).position_m; };
     MotionState state = rotation(t);
     const Vector3d acceleration =
         (position(t + kHalf_s) - 2.0 * position(t) + position(t - kHalf_s)) / (kHalf_s * kHalf_s);
     state.linear_acceleration += state.q_world_imu.conjugate() * acceleration;
     return state;
   };
-}
-
-std::vector<RecordedPose> readPoses(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read " + path + ": does it exist?");
-  std::vector<RecordedPose> poses;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream fields(line);
-    RecordedPose pose{};
-    Vector3d& p = pose.position_m;
-    Quaterniond& q = pose.q_world_imu;
-    if (!(fields >> pose.time_s >> p.x() >> p.y() >> p.z() >> q.x() >> q.y() >> q.z() >> q.w()) ||
-        !(q.norm() > 0.5) || (!poses.empty() && pose.time_s <= poses.back().time_s)) {
-      throw std::runtime_error(path + ", line " + std::to_string(number) +
-                               ": expected `time x y z qx qy qz qw` with growing time");
-    }
-    q.normalize();
-    poses.push_back(pose);
-  }
-  if (poses.size() < 2) throw std::runtime_error(path + ": holds fewer than two poses");
-  return poses;
 }
 
 }  // namespace stereo_nav::imu

@@ -2,9 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <functional>
-#include <string>
-#include <vector>
 
+#include "stereo_nav/eval/trajectory.h"
 #include "stereo_nav/imu/module_angles.h"
 
 namespace stereo_nav::imu {
@@ -35,17 +34,8 @@ Motion swaying();
 /// Three angles whose floats begin with the bytes `its`, for ever: the worst case of the angle protocol.
 Motion headerInsideFloats();
 
-struct RecordedPose {
-  double time_s;
-  Eigen::Vector3d position_m;
-  Eigen::Quaterniond q_world_imu;
-};
-
-/// Follows recorded poses (times growing, at least two), interpolated, and stays at the last one; the
+/// Follows recorded poses of the IMU (at least two), interpolated, and stays at the last one; the
 /// acceleration is that of the positions over 0.1 s.
-Motion recordedMotion(std::vector<RecordedPose> poses);
-
-/// Reads `time x y z qx qy qz qw` lines; throws std::runtime_error naming file and line.
-std::vector<RecordedPose> readPoses(const std::string& path);
+Motion recordedMotion(eval::Trajectory trajectory);
 
 }  // namespace stereo_nav::imu
