@@ -23,6 +23,8 @@ volatile std::sig_atomic_t interrupted = 0;
 /// Frames wait on the line for at most this long; a module whose line is too slow leaves frames out.
 constexpr double kMaxBacklog_s = 0.005;
 
+/// The port stays after the last frame until it is read, too.
+constexpr double kLinger_s = 1.0;
 /// A pseudo-terminal holds less than the kernel does for a real serial port; this makes up for it.
 constexpr std::size_t kKernelBuffer = 65536;
 
@@ -44,8 +46,7 @@ class Emulator {
   }
 
   bool done() const {
-    return interrupted != 0 ||
-           (options_.duration_s > 0.0 && elapsed_s() > options_.duration_s + options_.batch_s);
+    return interrupted != 0 || (options_.duration_s > 0.0 && elapsed_s() > options_.duration_s + kLinger_s);
   }
 
   /// Sends the frames that are due by the module's own rate.

@@ -34,15 +34,16 @@ imu::ImuDeviceStatus ImuSource::read(const std::function<bool()>& keep_going,
   std::signal(SIGINT, [](int) { interrupted = 1; });
   imu::ImuDevice reader(device, imu::PortFinder(port));
   imu::LinkState last = imu::LinkState::kWaiting;
-  imu::ImuDeviceStatus status;
+  imu::ImuDeviceStatus result;
   while (interrupted == 0 && keep_going()) {
     reader.poll(0.1, sink);
-    status = reader.status();
+    const imu::ImuDeviceStatus status = reader.status();
+    if (status.state == imu::LinkState::kStreaming) result = status;
     const bool bad = status.state != imu::LinkState::kStreaming && status.state != imu::LinkState::kWaiting;
     if (bad && status.state != last) std::cerr << port << ": " << status.message << "\n";
     last = status.state;
   }
-  return status;
+  return result;
 }
 
 }  // namespace stereo_nav::tools
