@@ -86,17 +86,18 @@ Figure topView(const Evaluation& evaluation) {
       ", $estimate every ::0::0 using 2:3 with points pt 6 ps 1.2 lw 2 lc rgb '#20262b' "
       "title 'start'\n";
   return {"path_top",
-          "Path from above: base_link in odom, ground truth laid onto the first pose. Equal scales.",
+          "Path in the x-y plane of odom (from above, where z of base_link points up): base_link, ground "
+          "truth laid onto the first pose. Equal scales.",
           header("path_top", 560) + pathData(evaluation) +
               "set size ratio -1\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
-              "set xlabel 'x forward [m]'\nset ylabel 'y left [m]'\n" +
+              "set xlabel 'x [m]'\nset ylabel 'y [m]'\n" +
               pathPlot(evaluation, "2:3") + start};
 }
 
 Figure heightView(const Evaluation& evaluation) {
   return {"path_height", "Height over time: z of base_link in odom, ground truth laid onto the first pose.",
-          header("path_height", 280) + pathData(evaluation) +
-              "set xlabel 'time [s]'\nset ylabel 'z up [m]'\n" + pathPlot(evaluation, "1:4") + "\n"};
+          header("path_height", 280) + pathData(evaluation) + "set xlabel 'time [s]'\nset ylabel 'z [m]'\n" +
+              pathPlot(evaluation, "1:4") + "\n"};
 }
 
 Figure errorsOverTime(const Evaluation& evaluation) {
