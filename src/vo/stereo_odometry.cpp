@@ -123,7 +123,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
     startAt(images, last_view_.T_camera_world, result);
   } else if (!follow(images, result)) {
     ++failures_;
-    result.state = failures_ > params_.max_coasting_frames ? State::kLost : State::kCoasting;
+    result.state = State::kLost;
     twist_.reset();
     if (failures_ > params_.max_coasting_frames) startAt(images, last_view_.T_camera_world, result);
   }
