@@ -10,8 +10,9 @@ namespace {
 constexpr int kLength = RaySpan::kLength;
 /// Diameter of what one of several samples of a pixel stands for, in pixels, across and along the slant.
 constexpr float kMinorFootprint = 0.6f;
-constexpr float kMajorFootprint = 0.3f;
-constexpr int kMaxTaps = 4;
+constexpr float kMajorFootprint = 0.25f;
+constexpr float kTapSpacing = 1.5f;  ///< in footprints across; what is more is read from a coarser level
+constexpr int kMaxTaps = 3;
 /// Light on the sides: a window front on one side of the hall, lamps above.
 constexpr float kSideX[2] = {0.95f, 0.82f};
 constexpr float kSideY[2] = {0.74f, 1.0f};
@@ -64,38 +65,94 @@ float fastLog2(float value) {
   return static_cast<float>(bits) * 0x1.0p-23f - 127.0f;
 }
 
-/// Where and on which face a solid was hit: coordinates on the surface in metres, and the ray's components in
-/// the same directions (last: along the normal).
+/// Where and on which face a solid was hit: coordinates on the surface in metres, and along which of the solid's
+/// directions they run.
 struct SurfacePoint {
   const Surface* surface;
   float u, v;
-  float ray_u, ray_v, ray_normal;
   float light;
+  int normal_axis;  ///< 0 to 2 of the solid's axes, 3 for a cylinder's mantle
 };
 
-SurfacePoint onBox(const Solid& solid, const Eigen::Vector3f& p, const Eigen::Vector3f& d) {
-  const Eigen::Vector3f share = p.cwiseAbs().cwiseQuotient(solid.half);
+SurfacePoint onBox(const Solid& solid, const Eigen::Vector3f& p) {
+  const Eigen::Vector3f share = p.cwiseAbs().cwiseProduct(solid.inverse_half);
   if (share.z() > share.x() && share.z() > share.y()) {
-    return {p.z() > 0.0f ? &solid.top : &solid.floor, p.x(), p.y(), d.x(), d.y(), d.z(), 1.0f};
+    return {p.z() > 0.0f ? &solid.top : &solid.floor, p.x(), p.y(), 1.0f, 2};
   }
-  // The two sides of a box show different pieces of the texture.
+  // Each side shows another piece of the texture.
   if (share.x() > share.y()) {
     const bool front = p.x() > 0.0f;
-    return {&solid.sides, p.y() + (front ? 1.7f : 0.0f), p.z(), d.y(), d.z(), d.x(), kSideX[front]};
+    return {&solid.sides, p.y() + (front ? 1.7f : 0.0f), p.z(), kSideX[front], 0};
   }
   const bool left = p.y() > 0.0f;
-  return {&solid.sides, p.x() + (left ? 3.1f : 2.3f), p.z(), d.x(), d.z(), d.y(), kSideY[left]};
+  return {&solid.sides, p.x() + (left ? 3.1f : 2.3f), p.z(), kSideY[left], 1};
 }
 
-SurfacePoint onCylinder(const Solid& solid, const Eigen::Vector3f& p, const Eigen::Vector3f& d) {
+SurfacePoint onCylinder(const Solid& solid, const Eigen::Vector3f& p) {
   const float radius = solid.half.x();
   if (p.head<2>().squaredNorm() < 0.998f * radius * radius) {
-    return {p.z() > 0.0f ? &solid.top : &solid.floor, p.x(), p.y(), d.x(), d.y(), d.z(), 1.0f};
+    return {p.z() > 0.0f ? &solid.top : &solid.floor, p.x(), p.y(), 1.0f, 2};
   }
   const float nx = p.x() / radius, ny = p.y() / radius;
-  const float light = 0.85f + 0.07f * nx + 0.13f * ny;
-  return {&solid.sides,           radius * std::atan2(p.y(), p.x()), p.z(), d.y() * nx - d.x() * ny, d.z(),
-          d.x() * nx + d.y() * ny, light};
+  return {&solid.sides, radius * std::atan2(p.y(), p.x()), p.z(), 0.85f + 0.07f * nx + 0.13f * ny, 3};
+}
+
+/// Which pyramid level to read, in how many taps and how far apart, in texels.
+struct Taps {
+  int level;
+  int count;
+  float inverse_count;
+  float first_u, first_v;  ///< from the middle to the first tap
+  float step_u, step_v;
+};
+
+/// The footprint of a sample on a slanted surface is an ellipse: its short axis sets the level, taps are strung
+/// along its long axis, which lies where the ray falls onto the surface.
+Taps planTaps(const SurfacePoint& point, const Eigen::Vector3f& p, const Eigen::Vector3f& d, float depth,
+              const Footprint& footprint) {
+  float normal, along_u, along_v;
+  switch (point.normal_axis) {
+    case 0: normal = d.x(), along_u = d.y(), along_v = d.z(); break;
+    case 1: normal = d.y(), along_u = d.x(), along_v = d.z(); break;
+    case 2: normal = d.z(), along_u = d.x(), along_v = d.y(); break;
+    default: {
+      const float inverse_radius = 1.0f / p.head<2>().norm();
+      normal = (d.x() * p.x() + d.y() * p.y()) * inverse_radius;
+      along_u = (d.y() * p.x() - d.x() * p.y()) * inverse_radius;
+      along_v = d.z();
+    }
+  }
+  const Surface& surface = *point.surface;
+  const float minor = kMinorFootprint * footprint.ray_pitch * depth * surface.texels_per_m;
+  const float slant = d.norm() / std::max(std::fabs(normal), 1e-4f);
+  const float major = minor * slant * (kMajorFootprint / kMinorFootprint);
+  Taps taps{};
+  taps.count = std::min(kMaxTaps, 1 + static_cast<int>(major / (kTapSpacing * minor)));
+  taps.inverse_count = 1.0f / static_cast<float>(taps.count);
+  const float step = major * taps.inverse_count;
+  const float level = fastLog2(std::max(std::max(minor, step), 1.0f)) + footprint.level_bias;
+  taps.level = std::min(static_cast<int>(level), surface.texture->levels() - 1);
+  if (taps.count > 1) {
+    const float scale = step / std::sqrt(along_u * along_u + along_v * along_v);
+    taps.step_u = along_u * scale;
+    taps.step_v = along_v * scale;
+    taps.first_u = -0.5f * static_cast<float>(taps.count - 1) * taps.step_u;
+    taps.first_v = -0.5f * static_cast<float>(taps.count - 1) * taps.step_v;
+  }
+  return taps;
+}
+
+float readTexture(const SurfacePoint& point, const Taps& taps) {
+  const Surface& surface = *point.surface;
+  float u = point.u * surface.texels_per_m + surface.u_offset + taps.first_u;
+  float v = point.v * surface.texels_per_m + surface.v_offset + taps.first_v;
+  float sum = surface.texture->sample(u, v, taps.level);
+  for (int tap = 1; tap < taps.count; ++tap) {
+    u += taps.step_u;
+    v += taps.step_v;
+    sum += surface.texture->sample(u, v, taps.level);
+  }
+  return sum * taps.inverse_count;
 }
 
 }  // namespace
@@ -122,38 +179,36 @@ void castSpan(const Candidate& candidate, int index, RaySpan& span) {
   }
 }
 
-float shade(const Candidate& candidate, float x, float y, float depth, const Footprint& footprint) {
-  const Solid& solid = *candidate.solid;
-  const Eigen::Vector3f d = candidate.R_solid_camera * Eigen::Vector3f(x, y, 1.0f);
-  const Eigen::Vector3f p = candidate.p_camera + depth * d;
-  const SurfacePoint point =
-      solid.kind == Solid::Kind::kCylinder ? onCylinder(solid, p, d) : onBox(solid, p, d);
-  const Surface& surface = *point.surface;
+float farthestDepth(const RaySpan& span) {
+  float farthest = 0.0f;
+  for (const float depth : span.depth) farthest = std::max(farthest, depth);
+  return farthest;
+}
 
-  const float minor = kMinorFootprint * footprint.ray_pitch * depth * surface.texels_per_m;
-  const float in_plane = std::sqrt(point.ray_u * point.ray_u + point.ray_v * point.ray_v);
-  const float slant = std::sqrt(x * x + y * y + 1.0f) / std::max(std::fabs(point.ray_normal), 1e-4f);
-  const float major = minor * slant * (kMajorFootprint / kMinorFootprint);
-  const int taps = major > minor ? std::min(kMaxTaps, 1 + static_cast<int>(major / minor)) : 1;
-  const float step = major / static_cast<float>(taps);
-  const float level_real = fastLog2(std::max(std::max(minor, step), 1.0f)) + footprint.level_bias;
-  const int level = std::min(static_cast<int>(level_real), surface.texture->levels() - 1);
-
-  const float u = point.u * surface.texels_per_m + surface.u_offset;
-  const float v = point.v * surface.texels_per_m + surface.v_offset;
-  float texture = 0.0f;
-  if (taps == 1) {
-    texture = surface.texture->sample(u, v, level);
-  } else {
-    const float du = step * point.ray_u / in_plane, dv = step * point.ray_v / in_plane;
-    const float first = 0.5f - 0.5f * static_cast<float>(taps);
-    for (int tap = 0; tap < taps; ++tap) {
-      const float at = first + static_cast<float>(tap);
-      texture += surface.texture->sample(u + at * du, v + at * dv, level);
+void shadeSpan(const std::vector<Candidate>& candidates, const RaySpan& span, int count, const Footprint& footprint,
+               float weight, float* out) {
+  // Footprints change slowly: one plan serves a run of neighbours on the same face.
+  constexpr int kRun = 8;
+  Taps taps{};
+  int planned_hit = -1, planned_axis = -1, planned_at = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const int hit = span.hit[at];
+    if (hit < 0) continue;
+    const Candidate& candidate = candidates[static_cast<std::size_t>(hit)];
+    const Solid& solid = *candidate.solid;
+    const Eigen::Vector3f d = candidate.R_solid_camera * Eigen::Vector3f(span.x[i], span.y[i], 1.0f);
+    const Eigen::Vector3f p = candidate.p_camera + span.depth[at] * d;
+    const SurfacePoint point = solid.kind == Solid::Kind::kCylinder ? onCylinder(solid, p) : onBox(solid, p);
+    if (hit != planned_hit || point.normal_axis != planned_axis || i >= planned_at + kRun) {
+      taps = planTaps(point, p, d, span.depth[at], footprint);
+      planned_hit = hit;
+      planned_axis = point.normal_axis;
+      planned_at = i;
     }
-    texture /= static_cast<float>(taps);
+    const Surface& surface = *point.surface;
+    out[i] += weight * surface.grey * point.light * (1.0f + surface.contrast * readTexture(point, taps));
   }
-  return surface.grey * point.light * (1.0f + surface.contrast * texture);
 }
 
 }  // namespace stereo_nav::sim

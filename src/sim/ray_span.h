@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <vector>
 
 #include "stereo_nav/sim/scene.h"
 
@@ -25,6 +26,9 @@ struct Candidate {
 
 Candidate makeCandidate(const Solid& solid, const Eigen::Isometry3d& T_world_camera, double time_s);
 
+/// Largest depth of the span, infinite while a ray has hit nothing.
+float farthestDepth(const RaySpan& span);
+
 /// Enters the hits with `candidate` that are nearer than what `span` holds.
 void castSpan(const Candidate& candidate, int index, RaySpan& span);
 
@@ -34,7 +38,8 @@ struct Footprint {
   float level_bias;  ///< in [0, 1): fractional pyramid levels are rounded up in this share of the samples
 };
 
-/// Light that comes back along ray (x, y, 1) from the solid's surface at `depth`.
-float shade(const Candidate& candidate, float x, float y, float depth, const Footprint& footprint);
+/// Adds `weight` times the light that comes back along the first `count` rays of the span to `out`.
+void shadeSpan(const std::vector<Candidate>& candidates, const RaySpan& span, int count, const Footprint& footprint,
+               float weight, float* out);
 
 }  // namespace stereo_nav::sim

@@ -51,8 +51,7 @@ Surface Scene::makeSurface(const Material& material, std::uint64_t instance) {
   surface.texture = texture.get();
   surface.grey = static_cast<float>(255.0 * material.brightness);
   surface.contrast = static_cast<float>(material.contrast);
-  surface.texel_m = static_cast<float>(1e-3 * material.texel_mm);
-  surface.texels_per_m = 1.0f / surface.texel_m;
+  surface.texels_per_m = static_cast<float>(1e3 / material.texel_mm);
   if (material.texture != TextureKind::kChecker) {
     RandomStream random(streamKey(world_seed_, Stream::kClutter, 7, instance));
     surface.u_offset = static_cast<float>(random.uniform(0, Texture::kSize));
@@ -67,6 +66,7 @@ void Scene::addRoom(const RoomParams& room) {
   solid.p_world = {0.5 * (room.x_min_m + room.x_max_m), 0.5 * (room.y_min_m + room.y_max_m), 0.5 * room.height_m};
   solid.half = {static_cast<float>(0.5 * (room.x_max_m - room.x_min_m)),
                 static_cast<float>(0.5 * (room.y_max_m - room.y_min_m)), static_cast<float>(0.5 * room.height_m)};
+  solid.inverse_half = solid.half.cwiseInverse();
   solid.sides = makeSurface(room.walls, 1);
   solid.floor = makeSurface(room.floor, 2);
   solid.top = makeSurface(room.ceiling, 3);
@@ -82,6 +82,7 @@ void Scene::addObject(const ObjectParams& object) {
   solid.half = {static_cast<float>(0.5 * object.length_m),
                 static_cast<float>(0.5 * (box ? object.width_m : object.length_m)),
                 static_cast<float>(0.5 * object.height_m)};
+  solid.inverse_half = solid.half.cwiseInverse();
   solid.sides = makeSurface(object.material, 10 + solids_.size());
   solid.floor = solid.top = solid.sides;
   solid.walk_m = {object.walk_x_m, object.walk_y_m};

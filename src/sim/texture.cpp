@@ -149,7 +149,7 @@ cv::Mat paintTexture(TextureKind kind, std::uint64_t seed) {
       canvas += 9.0 * fractalNoise(random, 8, 512);
       break;
     case TextureKind::kClutter:
-      paintLeaves(leaves, random, {1500, 5.0, 160.0, 0.25, 6.0, 2.2});
+      paintLeaves(leaves, random, {420, 9.0, 240.0, 0.2, 3.0, 2.5});
       leaves.convertTo(canvas, CV_32F);
       canvas += 8.0 * fractalNoise(random, 4, 512);
       break;

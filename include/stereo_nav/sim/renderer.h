@@ -30,14 +30,16 @@ class Renderer {
   /// `samples` per pixel, 1 to 16. `scene` must outlive the renderer.
   Renderer(const Scene& scene, const CameraCalibration& calibration, int samples);
 
+  /// Rectangle of ray coordinates (x/z, y/z) that a tile of the image sees.
+  struct TileBounds {
+    float x_min, x_max, y_min, y_max;
+  };
+
   /// Light on the sensor in grey levels of a perfect 8 bit camera, CV_32FC1, not limited to 255.
   cv::Mat render(const CameraPath& T_world_camera, const Shutter& shutter) const;
 
  private:
   static constexpr int kTile = 16;
-  struct TileBounds {
-    float x_min, x_max, y_min, y_max;  ///< of its rays
-  };
 
   void computeRays(const CameraCalibration& calibration);
   void computeTileBounds();

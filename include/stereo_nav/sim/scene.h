@@ -88,7 +88,6 @@ struct Surface {
   float grey = 128.0f;            ///< 255 * brightness
   float contrast = 1.0f;
   float texels_per_m = 250.0f;
-  float texel_m = 0.004f;
   float u_offset = 0.0f;  ///< texels; another piece of the texture for every object
   float v_offset = 0.0f;
 };
@@ -100,6 +99,7 @@ struct Solid {
   Eigen::Vector3d p_world = Eigen::Vector3d::Zero();  ///< of the middle at rest
   Eigen::Matrix3d R_solid_world = Eigen::Matrix3d::Identity();  ///< a turn about the vertical
   Eigen::Vector3f half = Eigen::Vector3f::Constant(0.5f);  ///< half extents; a cylinder's radius in x and y
+  Eigen::Vector3f inverse_half = Eigen::Vector3f::Constant(2.0f);
   Surface sides;
   Surface floor;  ///< room only
   Surface top;    ///< room: ceiling

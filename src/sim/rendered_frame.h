@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "ray_span.h"
+#include "stereo_nav/sim/renderer.h"
+
+namespace stereo_nav::sim {
+
+/// What is the same for all tiles of one image: every solid as seen at the instant of each row and sample, and
+/// which part of the image it can cover.
+class RenderedFrame {
+ public:
+  RenderedFrame(const Scene& scene, const CameraPath& T_world_camera, const Shutter& shutter, int height,
+                int samples);
+
+  /// Chooses the solids that a tile's rays can meet, nearest first.
+  void selectVisible(const Renderer::TileBounds& tile, float margin);
+
+  /// Casts kLength rays of the selected tile; hits are indices into candidates(row, sample).
+  RaySpan cast(const float* x, const float* y, int row, int sample) const;
+
+  const std::vector<Candidate>& candidates(int row, int sample) const;
+
+ private:
+  /// Rectangle of ray coordinates that a solid can cover, and its smallest depth.
+  struct Cover {
+    float x_min, x_max, y_min, y_max;
+    float nearest;
+  };
+
+  Cover coverOf(const Candidate& first, const Candidate& last) const;
+
+  int samples_;
+  bool global_shutter_;
+  std::vector<std::vector<Candidate>> candidates_;  ///< [row][sample], one row for a global shutter
+  std::vector<Cover> covers_;
+  std::vector<int> order_;  ///< of solids, nearest first, the room last
+  std::vector<int> visible_;
+};
+
+}  // namespace stereo_nav::sim
