@@ -29,7 +29,8 @@ void CaptureParams::describe(ParameterVisitor& visitor) {
             "common: both images of a pair carry the left one's time; true: each its own");
   visitor.real("exposure_ms", exposure_ms, {-1.0, 1000.0}, "ms",
                "exposure time of both cameras; 0: automatic, -1: as the camera is set");
-  visitor.integer("gain", gain, {-1, 10000}, "", "gain of both cameras in the driver's units; -1: as the camera is set");
+  visitor.integer("gain", gain, {-1, 10000}, "",
+                  "gain of both cameras in the driver's units; -1: as the camera is set");
   visitor.flag("match_exposure", match_exposure,
                "the right camera follows the exposure time and gain that the left one tells");
 }
