@@ -1,6 +1,7 @@
 // Holds a paused `rosbag play` until every subscriber of the graph is connected, then lets it run once. A
 // subscriber that connects later misses what was published before; with a chain of nodelets that is the first
 // few frames.
+#include <ros/network.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
 #include <xmlrpcpp/XmlRpcClient.h>
