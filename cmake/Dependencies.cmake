@@ -6,6 +6,7 @@ find_package(catkin REQUIRED COMPONENTS
 find_package(Boost REQUIRED COMPONENTS program_options)
 find_package(Ceres REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(JPEG REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs features2d video calib3d videoio)
 find_package(Threads REQUIRED)

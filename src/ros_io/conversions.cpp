@@ -103,7 +103,7 @@ cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image) {
   const auto pixel_bytes = static_cast<std::size_t>(enc::numChannels(image->encoding)) *
                            static_cast<std::size_t>(enc::bitDepth(image->encoding)) / 8;
   const bool complete = image->width > 0 && image->height > 0 && image->step >= image->width * pixel_bytes &&
-                        image->data.size() >= static_cast<std::size_t>(image->step) * image->height;
+                        image->data.size() == static_cast<std::size_t>(image->step) * image->height;
   if (!complete) {
     std::ostringstream message;
     message << "image of " << image->width << "x" << image->height << " '" << image->encoding << "', step "

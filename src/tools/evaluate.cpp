@@ -15,7 +15,7 @@ namespace stereo_nav::tools {
 namespace {
 
 void showProgress(std::size_t done, std::size_t all) {
-  if (isatty(STDERR_FILENO) == 0 && done != all) return;
+  if (isatty(STDERR_FILENO) == 0) return;
   std::fprintf(stderr, "\r%zu of %zu frames%s", done, all, done == all ? "\n" : "");
 }
 

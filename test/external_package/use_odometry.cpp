@@ -1,9 +1,9 @@
-// What an integrator writes first: an odometry as a configuration file describes it, one frame, the message type.
-// usage: use_odometry CONFIG. Exit status 0 if it behaves.
+// What an integrator writes first: an odometry as a configuration file describes it, one frame, the message
+// type. usage: use_odometry CONFIG. Exit status 0 if it behaves.
 #include <stereo_nav/VoStatus.h>
+#include <stereo_nav/vo/odometry_config.h>
 
 #include <iostream>
-#include <stereo_nav/vo/odometry_config.h>
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

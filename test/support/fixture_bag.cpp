@@ -37,20 +37,6 @@ Eigen::Isometry3d basePoseAt(double time_s) {
   return vo::basePose(baseToCamera(), roomDrive(time_s));
 }
 
-sensor_msgs::CameraInfo infoOf(const vo::StereoCalibration& c, bool right) {
-  sensor_msgs::CameraInfo info;
-  info.header.frame_id = frames::kLeftOptical;
-  info.width = static_cast<unsigned>(c.width);
-  info.height = static_cast<unsigned>(c.height);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0.0);
-  const double cx = right ? c.right_cx : c.cx;
-  info.K = {c.fx, 0, cx, 0, c.fy, c.cy, 0, 0, 1};
-  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.P = {c.fx, 0, cx, right ? -c.fx * c.baseline_m : 0, 0, c.fy, c.cy, 0, 0, 0, 1, 0};
-  return info;
-}
-
 sensor_msgs::Image imageOf(const cv::Mat& grey, const ros::Time& stamp) {
   std_msgs::Header header;
   header.stamp = stamp;
@@ -76,8 +62,8 @@ void writeFrame(rosbag::Bag& bag, const FixtureBag& fixture, int index) {
   const double left_s = fixture.period_s * index;
   const double right_s = left_s + fixture.right_lag_s;
   const auto images = TexturedRoom().renderPair(roomDrive(left_s), roomDrive(right_s), c);
-  sensor_msgs::CameraInfo left_info = infoOf(c, false);
-  sensor_msgs::CameraInfo right_info = infoOf(c, true);
+  sensor_msgs::CameraInfo left_info = cameraInfo(c, false);
+  sensor_msgs::CameraInfo right_info = cameraInfo(c, true);
   left_info.header.stamp = stampOf(left_s);
   right_info.header.stamp = stampOf(right_s);
   bag.write(topics::kLeftImage, stampOf(left_s), imageOf(images.left, stampOf(left_s)));
@@ -118,6 +104,20 @@ void writeImu(rosbag::Bag& bag, double time_s) {
 }
 
 }  // namespace
+
+sensor_msgs::CameraInfo cameraInfo(const vo::StereoCalibration& c, bool right) {
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = frames::kLeftOptical;
+  info.width = static_cast<unsigned>(c.width);
+  info.height = static_cast<unsigned>(c.height);
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  const double cx = right ? c.right_cx : c.cx;
+  info.K = {c.fx, 0, cx, 0, c.fy, c.cy, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.P = {c.fx, 0, cx, right ? -c.fx * c.baseline_m : 0, 0, c.fy, c.cy, 0, 0, 0, 1, 0};
+  return info;
+}
 
 void writeFixtureBag(const std::string& path, const FixtureBag& fixture) {
   rosbag::Bag bag(path, rosbag::bagmode::Write);

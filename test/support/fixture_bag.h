@@ -1,6 +1,10 @@
 #pragma once
 
+#include <sensor_msgs/CameraInfo.h>
+
 #include <string>
+
+#include "stereo_nav/vo/stereo_calibration.h"
 
 namespace stereo_nav::test {
 
@@ -16,5 +20,8 @@ struct FixtureBag {
 /// Writes roomDrive() through the textured room as a bag of a stereo rig (topics.h), each image with its own
 /// true stamp, `imu/data` at 100 Hz, `ground_truth/odom` and `tf_static`. Same arguments, same messages.
 void writeFixtureBag(const std::string& path, const FixtureBag& fixture);
+
+/// camera_info of one camera of an ideal, rectified pair.
+sensor_msgs::CameraInfo cameraInfo(const vo::StereoCalibration& calibration, bool right);
 
 }  // namespace stereo_nav::test

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "stereo_nav/capture/kernel.h"
+#include "stereo_nav/capture/v4l2_device.h"
+
+namespace stereo_nav::capture {
+
+/// Which moment of the monotonic clock a buffer's stamp stands for. Drivers promise CLOCK_MONOTONIC by a
+/// flag; without it the clock is recognised from the first frame: monotonic or real time when the stamp is
+/// close to that clock's "now", and otherwise unusable, so that the time of dequeuing stands in.
+class DriverClock {
+ public:
+  enum class Kind { Monotonic, RealTime, Unusable };
+
+  explicit DriverClock(Kernel& kernel) : kernel_(kernel) {}
+
+  /// To be called when streaming starts: the next frame decides anew.
+  void reset() { kind_.reset(); }
+
+  /// The stamp in CLOCK_MONOTONIC, nanoseconds.
+  std::int64_t monotonicStamp(const LentBuffer& buffer, std::int64_t dequeued_ns);
+
+  std::optional<Kind> kind() const { return kind_; }
+  /// What is doubtful about the stamps; empty when nothing is.
+  const std::string& warning() const { return warning_; }
+
+ private:
+  void recognise(const LentBuffer& buffer, std::int64_t dequeued_ns);
+
+  Kernel& kernel_;
+  std::optional<Kind> kind_;
+  std::string warning_;
+};
+
+/// The middle of the exposure: stamps are taken at its start or at the end of the frame (V4L2's flags say
+/// which). Without a known exposure the stamp itself.
+std::int64_t middleOfExposure(std::int64_t stamp_ns, std::uint32_t buffer_flags,
+                              std::optional<double> exposure_s);
+
+}  // namespace stereo_nav::capture

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "stereo_nav/capture/decoder.h"
+
+namespace stereo_nav::capture {
+
+enum class Side { Left, Right };
+
+inline const char* sideName(Side side) {
+  return side == Side::Left ? "left" : "right";
+}
+inline Side otherSide(Side side) {
+  return side == Side::Left ? Side::Right : Side::Left;
+}
+
+/// One image with its times, all of CLOCK_MONOTONIC in nanoseconds.
+struct Frame {
+  DecodedImage image;
+  std::int64_t time_ns = 0;      ///< middle of the exposure where that is known, else the driver's stamp
+  std::int64_t stamp_ns = 0;     ///< the driver's stamp, in the monotonic clock
+  std::int64_t dequeued_ns = 0;  ///< when the frame was taken from the driver
+  std::uint32_t sequence = 0;    ///< the driver's counter
+  std::uint64_t lost = 0;        ///< frames that this camera's driver lost up to here
+  double exposure_s = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace stereo_nav::capture

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "stereo_nav/params/parameter_visitor.h"
+#include "stereo_nav/vo/patch_tracker.h"
+#include "stereo_nav/vo/stereo_view.h"
+
+namespace stereo_nav::vo {
+
+struct SparseStereoParams {
+  PatchTrackerParams refinement;
+  double max_disparity_share = 0.25;
+  int search_window_px = 11;
+  double search_correlation = 0.7;
+  double uniqueness = 0.95;
+  double max_epipolar_px = 2.0;
+  double min_disparity_px = 0.1;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+struct StereoMatch {
+  Eigen::Vector2d right_px;
+  Triangulation depth;
+};
+
+/// Finds corners of the left image in the right one, to a fraction of a pixel and whatever the gain and
+/// offset between the two cameras. The search line bends with the motion between the two stamps.
+class SparseStereoMatcher {
+ public:
+  SparseStereoMatcher(const SparseStereoParams& params, const StereoCalibration& calibration);
+
+  /// From a predicted position in the right image.
+  std::optional<StereoMatch> refine(const ImagePyramid& left, const ImagePyramid& right,
+                                    const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
+                                    const Eigen::Vector2d& guess_px) const;
+
+  /// Without a prediction: the whole range of disparities on a coarse level, then from there. Nothing if a
+  /// second place looks nearly as alike.
+  std::optional<StereoMatch> search(const ImagePyramid& left, const ImagePyramid& right,
+                                    const Eigen::Isometry3d& T_late_camera,
+                                    const Eigen::Vector2d& left_px) const;
+
+ private:
+  std::optional<StereoMatch> accept(const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
+                                    const Eigen::Vector2d& right_px) const;
+
+  SparseStereoParams params_;
+  StereoCalibration calibration_;
+  PatchTracker tracker_;
+  int search_level_;
+};
+
+}  // namespace stereo_nav::vo

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stereo_nav/vo/grid_corner_detector.h"
+#include "stereo_nav/vo/imu_rotation.h"
+#include "stereo_nav/vo/noisy_rigidity.h"
+#include "stereo_nav/vo/odometry.h"
+#include "stereo_nav/vo/patch_tracker.h"
+#include "stereo_nav/vo/pose_estimator.h"
+#include "stereo_nav/vo/sparse_stereo.h"
+#include "stereo_nav/vo/window_optimizer.h"
+
+namespace stereo_nav::vo {
+
+struct KeyframeParams {
+  int window = 8;
+  double min_tracked_share = 0.8;
+  double max_parallax_px = 20.0;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+struct StereoParams {
+  int pyramid_levels = 4;
+  GridCornerDetectorParams corners;
+  PatchTrackerParams tracking;
+  SparseStereoParams stereo;
+  NoisyRigidityParams rigidity;
+  int clique_budget = 2000;
+  PoseEstimatorParams motion;
+  WindowOptimizerParams window;
+  KeyframeParams keyframes;
+  ImuRotationParams imu;
+  int min_inliers = 12;
+  int max_coasting_frames = 3;
+  double acceleration_density = 1.0;
+  double angular_acceleration_density = 4.0;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+/// The default composition: corners tracked from the last keyframe with prediction, matched into the right
+/// image at its own time, freed from outliers by rigidity, motion by robust reprojection, and keyframes and
+/// landmarks refined together in a small window. Needs no disparity map; uses the IMU's rotation where there
+/// is one.
+class StereoOdometry : public Odometry {
+ public:
+  StereoOdometry(const StereoParams& params, const StereoCalibration& calibration,
+                 const Eigen::Matrix3d& R_camera_imu);
+
+  void addImu(const ImuSample& sample) override { imu_.add(sample); }
+  FrameResult process(const StereoFrame& frame) override;
+  void reset() override;
+  bool usesDisparityMap() const override { return false; }
+
+ private:
+  /// A landmark's way through the images since the last keyframe.
+  struct Track {
+    Eigen::Vector2d keyframe_px;
+    Eigen::Vector2d last_px;
+    StereoObservation seen;  ///< in the current frame
+    bool alive = true;       ///< may still be found in the next frame
+    bool found = false;      ///< in the current frame
+    bool inlier = false;
+    bool fresh = true;       ///< detected in the current frame
+  };
+  /// The two images of a frame with their times.
+  struct Images {
+    ImagePyramid left;
+    ImagePyramid right;
+    double left_time_s = 0.0;
+    double right_time_s = 0.0;
+    double skew_s() const { return right_time_s - left_time_s; }
+  };
+
+  void startAt(const Images& images, const Eigen::Isometry3d& T_camera_world, FrameResult& result);
+  bool follow(const Images& images, FrameResult& result);
+  MotionPrior motionPrior(const Images& images) const;
+  StereoView predict(const Images& images, const MotionPrior& prior) const;
+  void trackAll(const Images& images, const StereoView& predicted);
+  bool trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level,
+                const Eigen::Matrix2f& step);
+  Eigen::Matrix2f patchStep(std::size_t i, const StereoView& view) const;
+  void matchStereo(const Images& images, const StereoView& view);
+  std::vector<std::size_t> selectRigid(const StereoView& predicted, FrameResult& result) const;
+  PoseEstimate estimatePose(const std::vector<std::size_t>& selected, const MotionPrior& prior,
+                            const StereoView& predicted);
+  void updateTwist(const Images& images, const MotionPrior& prior);
+  void smoothPreviousSkew(const Images& images);
+  void refineWindow();
+  bool needsKeyframe() const;
+  void makeKeyframe(const Images& images, FrameResult& result);
+  void replenish(const Images& images, FrameResult& result);
+  void dropOldFrames();
+  void compact();
+  void report(FrameResult& result) const;
+  Eigen::Vector2d predictedPixel(std::size_t i, const StereoView& view) const;
+
+  StereoParams params_;
+  StereoCalibration calibration_;
+  GridCornerDetector detector_;
+  PatchTracker tracker_;
+  SparseStereoMatcher stereo_;
+  PoseEstimator estimator_;
+  WindowOptimizer optimizer_;
+  ImuRotation imu_;
+
+  // The map. The world is the left camera of the first frame.
+  std::vector<StereoView> window_;   ///< keyframes, oldest first, and the current frame at the end
+  std::vector<Landmark> landmarks_;
+  std::vector<Track> tracks_;        ///< of the landmark with the same index
+  ImagePyramid keyframe_image_;
+  std::size_t keyframe_inliers_ = 0;
+  std::uint32_t keyframe_id_ = 0;
+  std::uint64_t next_id_ = 1;
+
+  // The previous frame that had a pose.
+  bool last_is_keyframe_ = false;
+  double last_left_time_s_ = 0.0;
+  double last_skew_s_ = 0.0;
+  double last_interval_s_ = 0.0;
+  StereoView last_view_;
+  Eigen::Isometry3d T_last_before_ = Eigen::Isometry3d::Identity();  ///< its motion since the one before
+  std::optional<Vector6d> twist_;  ///< of the world in the camera frame at the last left stamp, m/s and rad/s
+  int failures_ = 0;
+};
+
+}  // namespace stereo_nav::vo

@@ -1,0 +1,290 @@
+#include "stereo_nav/capture/camera_worker.h"
+
+#include <linux/videodev2.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace stereo_nav::capture {
+namespace {
+
+constexpr int kPoll_ms = 100;
+constexpr std::int64_t kExposureInterval_ns = 500'000'000;
+constexpr std::int64_t kLogInterval_ns = 10'000'000'000;
+constexpr double kExposureUnit_s = 100e-6;  // of V4L2_CID_EXPOSURE_ABSOLUTE
+
+std::optional<std::int32_t> readIfPresent(V4l2Device& device, const std::string& name) {
+  const Control* control = findControl(device.controls(), name);
+  if (control == nullptr) return std::nullopt;
+  return device.getControl(*control);
+}
+
+/// In automatic modes many cameras report the last manual exposure; only a control marked as changing by
+/// itself is believed then.
+bool exposureIsTold(V4l2Device& device) {
+  const Control* exposure = findControl(device.controls(), "exposure_time_absolute");
+  if (exposure == nullptr) return false;
+  const auto mode = readIfPresent(device, "auto_exposure");
+  const bool manual = !mode || *mode == V4L2_EXPOSURE_MANUAL || *mode == V4L2_EXPOSURE_SHUTTER_PRIORITY;
+  return manual || (exposure->flags & V4L2_CTRL_FLAG_VOLATILE) != 0;
+}
+
+}  // namespace
+
+CameraWorker::CameraWorker(CameraConfig config, Kernel& kernel, DeviceFinder finder, FrameSink on_frame,
+                           StartSink on_start, Log log)
+    : config_(std::move(config)),
+      kernel_(kernel),
+      finder_(std::move(finder)),
+      on_frame_(std::move(on_frame)),
+      on_start_(std::move(on_start)),
+      log_(std::move(log)),
+      clock_(kernel),
+      wanted_controls_(config_.controls) {}
+
+CameraWorker::~CameraWorker() {
+  stop();
+}
+
+void CameraWorker::start() {
+  if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+}
+
+void CameraWorker::stop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  stop_requested_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+CameraStatus CameraWorker::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_;
+}
+
+void CameraWorker::setControl(const std::string& name, std::int32_t value) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (auto* list : {&wanted_controls_, &pending_controls_}) {
+    const auto found = std::find_if(list->begin(), list->end(), [&name](const ControlSetting& setting) {
+      return sameControl(setting.name, name);
+    });
+    if (found != list->end()) {
+      found->value = value;
+    } else {
+      list->push_back({name, value});
+    }
+  }
+}
+
+void CameraWorker::update(const std::function<void(CameraStatus&)>& change) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  change(status_);
+}
+
+void CameraWorker::run() {
+  do {
+    frames_flow_ = false;
+    try {
+      openAndStream();
+    } catch (const CaptureError& error) {
+      noteFailure(error);
+    }
+  } while (sleepUnlessStopped(backoff_.next()));
+  update([](CameraStatus& status) { status.state = CameraState::Closed; });
+}
+
+/// At its port, once it was seen; a name from /dev/v4l/by-id means the camera itself, wherever it is now.
+FoundDevice CameraWorker::locate() {
+  const bool by_id = config_.device.find("/by-id/") != std::string::npos;
+  return seen_before_ && !by_id ? finder_.findAgain(*seen_before_) : finder_.find(config_.device);
+}
+
+void CameraWorker::openAndStream() {
+  const FoundDevice found = locate();
+  V4l2Device device(kernel_, found.path);
+  format_ = device.configure(config_.format);
+  std::vector<ControlSetting> controls;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    controls = wanted_controls_;
+    pending_controls_.clear();
+    status_.control_warnings.clear();
+  }
+  applyControls(device, controls);
+  device.startStreaming(config_.buffers);
+  seen_before_ = found;
+  update([&](CameraStatus& status) {
+    status.device = found;
+    status.format = format_;
+  });
+  clock_.reset();
+  sequence_.restart();
+  rate_.restart();
+  next_exposure_reading_ns_ = 0;
+  stream(device);
+}
+
+void CameraWorker::stream(V4l2Device& device) {
+  std::int64_t latest_ns = kernel_.monotonicNow();
+  const auto stall_ns = static_cast<std::int64_t>(config_.stall_timeout_s * 1e9);
+  while (sleepUnlessStopped(Backoff::Duration(0))) {
+    applyPendingControls(device);
+    if (!device.wait(kPoll_ms)) {
+      if (kernel_.monotonicNow() - latest_ns < stall_ns) continue;
+      update([](CameraStatus& status) { ++status.stalls; });
+      throw CaptureError(
+          Step::Wait, 0,
+          device.path() + ": no image for " + std::to_string(config_.stall_timeout_s) +
+              " s: the camera stopped sending, as cheap ones do on a weak hub or a long cable; it is "
+              "opened anew");
+    }
+    latest_ns = kernel_.monotonicNow();
+    const auto newest = takeNewest(device);
+    if (newest) deliver(device, *newest, latest_ns);
+    if (latest_ns >= next_exposure_reading_ns_) {
+      next_exposure_reading_ns_ = latest_ns + kExposureInterval_ns;
+      readExposure(device);
+    }
+  }
+}
+
+std::optional<LentBuffer> CameraWorker::takeNewest(V4l2Device& device) {
+  std::optional<LentBuffer> newest;
+  while (auto buffer = device.dequeue()) {
+    sequence_.add(buffer->sequence);
+    rate_.add(kernel_.monotonicNow());
+    std::optional<LentBuffer> unused = buffer;
+    const bool broken = buffer->isBroken();
+    if (!broken) std::swap(unused, newest);
+    if (unused) device.giveBack(*unused);
+    if (!broken) newest = buffer;
+    update([&](CameraStatus& status) {
+      status.lost = sequence_.lost();
+      status.flagged_broken += broken ? 1 : 0;
+      status.skipped += !broken && unused ? 1 : 0;
+      status.rate_hz = rate_.get_hz(kernel_.monotonicNow());
+    });
+  }
+  return newest;
+}
+
+void CameraWorker::deliver(V4l2Device& device, const LentBuffer& buffer, std::int64_t dequeued_ns) {
+  Frame frame;
+  const std::string problem = decode(buffer.data, buffer.size, format_.layout, config_.encoding, frame.image);
+  device.giveBack(buffer);
+  if (!problem.empty()) {
+    noteUndecodable(problem, dequeued_ns);
+    return;
+  }
+  frame.dequeued_ns = dequeued_ns;
+  frame.stamp_ns = clock_.monotonicStamp(buffer, dequeued_ns);
+  frame.time_ns = middleOfExposure(frame.stamp_ns, buffer.flags, exposure_s_);
+  frame.sequence = buffer.sequence;
+  frame.lost = sequence_.lost();
+  if (exposure_s_) frame.exposure_s = *exposure_s_;
+  if (!frames_flow_) noteFirstFrame();
+  const double decode_time_s = 1e-9 * static_cast<double>(kernel_.monotonicNow() - dequeued_ns);
+  update([&](CameraStatus& status) {
+    ++status.frames;
+    status.decode_time_s = decode_time_s;
+  });
+  on_frame_(std::move(frame));
+}
+
+void CameraWorker::noteUndecodable(const std::string& problem, std::int64_t now_ns) {
+  update([](CameraStatus& status) { ++status.undecodable; });
+  if (now_ns < next_undecodable_log_ns_) return;
+  next_undecodable_log_ns_ = now_ns + kLogInterval_ns;
+  log_(Severity::Warning, config_.name + " camera: image dropped: " + problem +
+                              "; now and then this is normal for USB, often it means a bad cable or hub");
+}
+
+void CameraWorker::applyControls(V4l2Device& device, const std::vector<ControlSetting>& settings) {
+  std::vector<std::string> warnings;
+  for (const auto& setting : inOrderOfSetting(settings)) {
+    const Control* control = findControl(device.controls(), setting.name);
+    if (control == nullptr) {
+      warnings.push_back(setting.name + ": the camera has no such control");
+      continue;
+    }
+    try {
+      const std::int32_t active = device.setControl(*control, setting.value);
+      if (active != setting.value) {
+        warnings.push_back(control->name + " = " + std::to_string(setting.value) + ": the camera set " +
+                           std::to_string(active) + " (allowed: " + std::to_string(control->minimum) +
+                           " to " + std::to_string(control->maximum) + ")");
+      }
+    } catch (const CaptureError& error) {
+      if (error.errorNumber() == ENODEV) throw;
+      warnings.push_back(error.what());
+    }
+  }
+  for (const auto& warning : warnings) log_(Severity::Warning, config_.name + " camera: " + warning);
+  update([&](CameraStatus& status) {
+    status.control_warnings.insert(status.control_warnings.end(), warnings.begin(), warnings.end());
+  });
+}
+
+void CameraWorker::applyPendingControls(V4l2Device& device) {
+  std::vector<ControlSetting> pending;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    pending.swap(pending_controls_);
+  }
+  if (pending.empty()) return;
+  applyControls(device, pending);
+  next_exposure_reading_ns_ = 0;
+}
+
+void CameraWorker::readExposure(V4l2Device& device) {
+  const auto exposure = readIfPresent(device, "exposure_time_absolute");
+  const auto gain = readIfPresent(device, "gain");
+  exposure_s_.reset();
+  if (exposure && exposureIsTold(device)) exposure_s_ = *exposure * kExposureUnit_s;
+  update([&](CameraStatus& status) {
+    status.exposure = exposure;
+    status.gain = gain;
+  });
+}
+
+void CameraWorker::noteFailure(const CaptureError& error) {
+  const std::string problem = error.what();
+  if (problem != logged_problem_) {
+    log_(Severity::Error, config_.name + " camera: " + problem + " (trying again)");
+  }
+  logged_problem_ = problem;
+  update([&](CameraStatus& status) {
+    status.state = CameraState::Retrying;
+    status.failed_attempts += frames_flow_ ? 0 : 1;
+    status.problem = problem;
+    status.rate_hz = 0.0;
+  });
+}
+
+void CameraWorker::noteFirstFrame() {
+  frames_flow_ = true;
+  backoff_.reset();
+  logged_problem_.clear();
+  const bool again = starts_++ > 0;
+  if (!clock_.warning().empty() && !again) {
+    log_(Severity::Warning, config_.name + " camera: " + clock_.warning());
+  }
+  update([&](CameraStatus& status) {
+    status.state = CameraState::Streaming;
+    status.problem.clear();
+    status.clock_warning = clock_.warning();
+    status.reconnections += again ? 1 : 0;
+  });
+  log_(Severity::Info, config_.name + " camera: images from " + seen_before_->card + ", " +
+                           seen_before_->path + (again ? " again" : ""));
+  on_start_();
+}
+
+bool CameraWorker::sleepUnlessStopped(Backoff::Duration duration) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return !stop_requested_.wait_for(lock, duration, [this] { return stopping_; });
+}
+
+}  // namespace stereo_nav::capture

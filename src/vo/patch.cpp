@@ -1,0 +1,259 @@
+#include "stereo_nav/vo/patch.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <opencv2/core/hal/intrin.hpp>
+
+#include "stereo_nav/vo/image_pyramid.h"
+
+namespace stereo_nav::vo {
+namespace {
+
+constexpr int kWeightBits = 14;
+constexpr int kFractionBits = 3;  ///< intensities in eighths: sums of 21 x 21 products stay below 2^31
+constexpr float kNoWarp = 0.02F;  ///< less than this changes a patch by a fraction of a pixel at its rim
+constexpr float kLeastGain = 0.25F;
+constexpr float kMostGain = 4.0F;
+
+/// Patches may hang over the edge of the image into the border of its pyramid, but not by half.
+bool inside(const cv::Mat& image, const cv::Point2f& centre) {
+  constexpr float kMargin_px = 2.0F;
+  // Written so that NaN is outside.
+  return centre.x >= kMargin_px && centre.y >= kMargin_px &&
+         centre.x <= static_cast<float>(image.cols - 1) - kMargin_px &&
+         centre.y <= static_cast<float>(image.rows - 1) - kMargin_px;
+}
+
+/// Bilinear samples of the rows x stride px whose first is at `corner`, in eighths of a grey level.
+void sample(const cv::Mat& image, const cv::Point2f& corner, int rows, int stride, std::int16_t* out) {
+  const int x = static_cast<int>(std::floor(corner.x));
+  const int y = static_cast<int>(std::floor(corner.y));
+  const float a = corner.x - static_cast<float>(x);
+  const float b = corner.y - static_cast<float>(y);
+  constexpr float kOne = 1 << kWeightBits;
+  const auto w01 = static_cast<short>(std::lround(a * (1.0F - b) * kOne));
+  const auto w10 = static_cast<short>(std::lround((1.0F - a) * b * kOne));
+  const auto w11 = static_cast<short>(std::lround(a * b * kOne));
+  const auto w00 = static_cast<short>((1 << kWeightBits) - w01 - w10 - w11);
+  const cv::v_int16x8 upper(w00, w01, w00, w01, w00, w01, w00, w01);
+  const cv::v_int16x8 lower(w10, w11, w10, w11, w10, w11, w10, w11);
+  constexpr int kShift = kWeightBits - kFractionBits;
+  const cv::v_int32x4 half = cv::v_setall_s32(1 << (kShift - 1));
+  const auto step = static_cast<std::ptrdiff_t>(image.step);
+  const uchar* const first = image.data + y * step + x;
+  for (int r = 0; r < rows; ++r) {
+    const uchar* above = first + r * step;
+    const uchar* below = above + step;
+    for (int c = 0; c < stride; c += 8) {
+      cv::v_int16x8 low;
+      cv::v_int16x8 high;
+      cv::v_zip(cv::v_reinterpret_as_s16(cv::v_load_expand(above + c)),
+                cv::v_reinterpret_as_s16(cv::v_load_expand(above + c + 1)), low, high);
+      cv::v_int32x4 sum_low = cv::v_dotprod(low, upper) + half;
+      cv::v_int32x4 sum_high = cv::v_dotprod(high, upper) + half;
+      cv::v_zip(cv::v_reinterpret_as_s16(cv::v_load_expand(below + c)),
+                cv::v_reinterpret_as_s16(cv::v_load_expand(below + c + 1)), low, high);
+      sum_low = cv::v_dotprod(low, lower) + sum_low;
+      sum_high = cv::v_dotprod(high, lower) + sum_high;
+      cv::v_store(out + r * stride + c, cv::v_pack(sum_low >> kShift, sum_high >> kShift));
+    }
+  }
+}
+
+/// The same around `centre`, along the axes `step` (image px per patch px): column c and row r of the patch at
+/// centre + step * (c - half, r - half). Parts outside of the image and its border repeat the border's edge.
+void sampleWarped(const cv::Mat& image, const cv::Point2f& centre, const Eigen::Matrix2f& step, int half, int rows,
+                  int stride, std::int16_t* out) {
+  const auto pitch = static_cast<std::ptrdiff_t>(image.step);
+  const float least = -static_cast<float>(ImagePyramid::kBorder_px);
+  const float most_x = static_cast<float>(image.cols + ImagePyramid::kBorder_px - 2);
+  const float most_y = static_cast<float>(image.rows + ImagePyramid::kBorder_px - 2);
+  constexpr float kOne = 1 << kFractionBits;
+  for (int r = 0; r < rows; ++r) {
+    const auto dy = static_cast<float>(r - half);
+    for (int c = 0; c < stride; ++c) {
+      const auto dx = static_cast<float>(c - half);
+      const float px = std::clamp(centre.x + step(0, 0) * dx + step(0, 1) * dy, least, most_x);
+      const float py = std::clamp(centre.y + step(1, 0) * dx + step(1, 1) * dy, least, most_y);
+      const float floor_x = std::floor(px);
+      const float floor_y = std::floor(py);
+      const float a = px - floor_x;
+      const float b = py - floor_y;
+      const uchar* above =
+          image.data + static_cast<std::ptrdiff_t>(floor_y) * pitch + static_cast<std::ptrdiff_t>(floor_x);
+      const uchar* below = above + pitch;
+      const auto p00 = static_cast<float>(above[0]);
+      const auto p10 = static_cast<float>(below[0]);
+      const float upper = p00 + a * (static_cast<float>(above[1]) - p00);
+      const float lower = p10 + a * (static_cast<float>(below[1]) - p10);
+      out[r * stride + c] = static_cast<std::int16_t>(kOne * (upper + b * (lower - upper)) + 0.5F);
+    }
+  }
+}
+
+/// Subtracts the mean over the window so that the integer sum is exactly zero; clears the padding.
+void removeMean(std::int16_t* grid, int window, int stride) {
+  int sum = 0;
+  for (int r = 0; r < window; ++r) {
+    for (int c = 0; c < window; ++c) sum += grid[r * stride + c];
+  }
+  const int count = window * window;
+  int mean = sum / count;
+  int remainder = sum - mean * count;
+  if (remainder < 0) {
+    --mean;
+    remainder += count;
+  }
+  for (int r = 0; r < window; ++r) {
+    for (int c = 0; c < stride; ++c) {
+      std::int16_t& value = grid[r * stride + c];
+      if (c >= window) {
+        value = 0;
+        continue;
+      }
+      value = static_cast<std::int16_t>(value - mean - (remainder > 0 ? 1 : 0));
+      if (remainder > 0) --remainder;
+    }
+  }
+}
+
+float dot(const std::int16_t* a, const std::int16_t* b, int count) {
+  cv::v_int32x4 sum = cv::v_setzero_s32();
+  for (int i = 0; i < count; i += 8) sum = cv::v_dotprod(cv::v_load(a + i), cv::v_load(b + i), sum);
+  return static_cast<float>(cv::v_reduce_sum(sum));
+}
+
+}  // namespace
+
+struct Patch::Sums {
+  float by_gradient_x = 0.0F;
+  float by_gradient_y = 0.0F;
+  float by_intensity = 0.0F;
+  float sum = 0.0F;
+  float squares = 0.0F;
+};
+
+std::optional<Patch> Patch::cut(const cv::Mat& image, const cv::Point2f& centre, int window,
+                                double min_texture, const Eigen::Matrix2f& step) {
+  const int half = window / 2;
+  const int stride = (window + 7) / 8 * 8;
+  if (!inside(image, centre)) return std::nullopt;
+  Patch patch;
+  patch.window_ = window;
+  patch.stride_ = stride;
+  const auto offset = static_cast<float>(half);
+  const cv::Point2f corner = centre - cv::Point2f(offset, offset);
+  alignas(16) std::array<std::int16_t, (kMaxStride + 8) * (kMaxWindow + 2)> wide;
+  const int wide_stride = stride + 8;
+  // One more pixel on every side for the gradients.
+  if (step.isIdentity(kNoWarp)) {
+    sample(image, corner - cv::Point2f(1.0F, 1.0F), window + 2, wide_stride, wide.data());
+  } else {
+    sampleWarped(image, centre, step, half + 1, window + 2, wide_stride, wide.data());
+  }
+  for (int r = 0; r < window; ++r) {
+    const std::int16_t* row = wide.data() + (r + 1) * wide_stride + 1;
+    for (int c = 0; c < stride; ++c) {
+      const auto i = static_cast<std::size_t>(r * stride + c);
+      patch.intensity_[i] = row[c];
+      patch.gradient_x_[i] = static_cast<std::int16_t>((row[c + 1] - row[c - 1]) / 2);
+      patch.gradient_y_[i] = static_cast<std::int16_t>((row[c + wide_stride] - row[c - wide_stride]) / 2);
+    }
+  }
+  removeMean(patch.intensity_.data(), window, stride);
+  removeMean(patch.gradient_x_.data(), window, stride);
+  removeMean(patch.gradient_y_.data(), window, stride);
+  for (int c = 0; c < kMaxStride; ++c) patch.mask_[static_cast<std::size_t>(c)] = c < window ? 1 : 0;
+
+  const int count = window * stride;
+  const std::int16_t* const fields[] = {patch.gradient_x_.data(), patch.gradient_y_.data(),
+                                        patch.intensity_.data()};
+  Eigen::Matrix3f moments;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) moments(i, j) = moments(j, i) = dot(fields[i], fields[j], count);
+  }
+  const float unit = static_cast<float>(window * window) * (1 << kFractionBits) * (1 << kFractionBits);
+  const float mean = 0.5F * (moments(0, 0) + moments(1, 1)) / unit;
+  const float difference = 0.5F * (moments(0, 0) - moments(1, 1)) / unit;
+  const float smaller_eigenvalue = mean - std::hypot(difference, moments(0, 1) / unit);
+  if (smaller_eigenvalue < static_cast<float>(min_texture)) return std::nullopt;
+  patch.inverse_moments_ = moments.inverse();
+  if (!patch.inverse_moments_.allFinite()) return std::nullopt;
+  patch.intensity_norm_ = std::sqrt(moments(2, 2));
+  return patch;
+}
+
+Patch::Sums Patch::correlate(const Grid& grid) const {
+  cv::v_int32x4 x = cv::v_setzero_s32();
+  cv::v_int32x4 y = cv::v_setzero_s32();
+  cv::v_int32x4 t = cv::v_setzero_s32();
+  cv::v_int32x4 ones = cv::v_setzero_s32();
+  cv::v_int32x4 squares = cv::v_setzero_s32();
+  for (int r = 0; r < window_; ++r) {
+    for (int c = 0; c < stride_; c += 8) {
+      const int i = r * stride_ + c;
+      const cv::v_int16x8 mask = cv::v_load_aligned(mask_.data() + c);
+      const cv::v_int16x8 value = cv::v_load_aligned(grid.data() + i);
+      x = cv::v_dotprod(value, cv::v_load_aligned(gradient_x_.data() + i), x);
+      y = cv::v_dotprod(value, cv::v_load_aligned(gradient_y_.data() + i), y);
+      t = cv::v_dotprod(value, cv::v_load_aligned(intensity_.data() + i), t);
+      ones = cv::v_dotprod(value, mask, ones);
+      squares = cv::v_dotprod(value, cv::v_mul_wrap(value, mask), squares);
+    }
+  }
+  Sums sums;
+  sums.by_gradient_x = static_cast<float>(cv::v_reduce_sum(x));
+  sums.by_gradient_y = static_cast<float>(cv::v_reduce_sum(y));
+  sums.by_intensity = static_cast<float>(cv::v_reduce_sum(t));
+  sums.sum = static_cast<float>(cv::v_reduce_sum(ones));
+  sums.squares = static_cast<float>(cv::v_reduce_sum(squares));
+  return sums;
+}
+
+float Patch::correlation(const cv::Mat& image, int x, int y) const {
+  alignas(16) Grid grid;
+  const int half = window_ / 2;
+  const auto step = static_cast<std::ptrdiff_t>(image.step);
+  for (int r = 0; r < window_; ++r) {
+    const uchar* row = image.data + (y - half + r) * step + x - half;
+    for (int c = 0; c < stride_; c += 8) {
+      cv::v_store_aligned(grid.data() + r * stride_ + c,
+                          cv::v_reinterpret_as_s16(cv::v_load_expand(row + c)) << kFractionBits);
+    }
+  }
+  const Sums sums = correlate(grid);
+  const float variance = sums.squares - sums.sum * sums.sum / static_cast<float>(window_ * window_);
+  return variance > 0.0F ? sums.by_intensity / (intensity_norm_ * std::sqrt(variance)) : 0.0F;
+}
+
+std::optional<Patch::Match> Patch::align(const cv::Mat& image, const cv::Point2f& guess, int iterations,
+                                         double min_step_px) const {
+  constexpr float kLongestStep_px = 2.0F;
+  alignas(16) Grid grid;
+  const auto half = static_cast<float>(window_ / 2);
+  Match match{guess, 0.0F, false};
+  for (int i = 0; i < iterations && !match.converged; ++i) {
+    if (!inside(image, match.px)) return std::nullopt;
+    sample(image, match.px - cv::Point2f(half, half), window_, stride_, grid.data());
+    const Sums sums = correlate(grid);
+    const Eigen::Vector3f coefficients =
+        inverse_moments_ * Eigen::Vector3f(sums.by_gradient_x, sums.by_gradient_y, sums.by_intensity);
+    const float gain = coefficients.z();
+    if (!(gain > kLeastGain && gain < kMostGain)) return std::nullopt;
+    cv::Point2f step(-coefficients.x() / gain, -coefficients.y() / gain);
+    const float length = std::hypot(step.x, step.y);
+    if (length > kLongestStep_px) step *= kLongestStep_px / length;
+    match.px += step;
+    match.converged = length < static_cast<float>(min_step_px);
+    const float variance = sums.squares - sums.sum * sums.sum / static_cast<float>(window_ * window_);
+    match.correlation = variance > 0.0F ? sums.by_intensity / (intensity_norm_ * std::sqrt(variance)) : 0.0F;
+    const cv::Point2f away = match.px - guess;
+    if (std::hypot(away.x, away.y) > static_cast<float>(window_)) return std::nullopt;
+  }
+  if (!inside(image, match.px)) return std::nullopt;
+  return match;
+}
+
+}  // namespace stereo_nav::vo

@@ -1,0 +1,166 @@
+// The command-line contract of `evaluate`: figures on a recording of known answer, and refusals.
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/Image.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "stereo_nav/ros_io/topics.h"
+#include "support/command.h"
+#include "support/fixture_bag.h"
+
+namespace stereo_nav {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class EvaluateTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = fs::temp_directory_path() / ("evaluate_test_" + std::to_string(getpid()));
+    fs::create_directories(folder);
+    test::FixtureBag fixture;
+    fixture.frames = 12;
+    test::writeFixtureBag(file("room.bag"), fixture);
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder); }
+
+  static std::string file(const std::string& name) { return (folder / name).string(); }
+
+  static test::CommandResult evaluate(const std::string& arguments) {
+    const std::string config = std::string(" --config ") + STEREO_NAV_SOURCE_DIR + "/config/vo_thesis.yaml";
+    return test::runCommand(std::string("ROS_PACKAGE_PATH=") + STEREO_NAV_SOURCE_DIR + " " +
+                            EVALUATE_PROGRAM + " " + arguments + config);
+  }
+
+  /// Exit status 2, one line that holds `part`, and no results.
+  static void expectRefusal(const std::string& arguments, const std::string& part) {
+    const fs::path output = folder / "refused";
+    const auto result = evaluate(arguments + " --output " + output.string());
+    EXPECT_EQ(result.status, 2) << result.output;
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+    EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+    EXPECT_TRUE(!fs::exists(output) || fs::is_empty(output));
+  }
+
+  /// A copy of the fixture whose messages `change` may edit; the ones it returns false for are left out.
+  template <class Message>
+  static std::string copyWith(const std::string& name, const std::string& topic,
+                              const std::function<bool(Message&)>& change) {
+    rosbag::Bag source(file("room.bag"));
+    rosbag::Bag copy(file(name), rosbag::bagmode::Write);
+    rosbag::View view(source);
+    for (const rosbag::MessageInstance& instance : view) {
+      const auto message = instance.getTopic() == topic ? instance.instantiate<Message>() : nullptr;
+      if (!message) {
+        copy.write(instance.getTopic(), instance.getTime(), instance);
+      } else if (change(*message)) {
+        copy.write(topic, instance.getTime(), *message);
+      }
+    }
+    return file(name);
+  }
+
+  static fs::path folder;
+};
+
+fs::path EvaluateTest::folder;
+
+TEST_F(EvaluateTest, MeasuresAKnownDriveAndRepeatsItselfToTheByte) {
+  for (const char* output : {"first", "second"}) {
+    const auto result = evaluate(file("room.bag") + " --output " + file(output));
+    ASSERT_EQ(result.status, 0) << result.output;
+  }
+  const auto summary = nlohmann::json::parse(contentOf(folder / "first/summary.json"));
+  EXPECT_EQ(summary["frames"], 12);
+  EXPECT_EQ(summary["frames_lost"], 0);
+  EXPECT_NEAR(summary["path_length_m"].get<double>(), 0.44, 0.001);  // 11 periods at 0.4 m/s
+  EXPECT_LT(summary["ate_rmse_m"].get<double>(), 0.03);
+  for (const char* name : {"trajectory.tum", "trajectory.kitti", "summary.json"}) {
+    const std::string first = contentOf(folder / "first" / name);
+    EXPECT_FALSE(first.empty());
+    EXPECT_EQ(first, contentOf(folder / "second" / name)) << name;
+  }
+  const auto timing = nlohmann::json::parse(contentOf(folder / "first/timing.json"));
+  EXPECT_GT(timing["frame_time_ms"]["median"].get<double>(), 0.0);
+  EXPECT_GT(timing["stage_time_ms"].size(), 3u);
+  EXPECT_NE(contentOf(folder / "first/report.html").find("</html>"), std::string::npos);
+}
+
+TEST_F(EvaluateTest, RefusesBadArguments) {
+  expectRefusal("", "no BAG given");
+  expectRefusal(file("room.bag") + " --start -1", "--start");
+  expectRefusal(file("room.bag") + " --repeat 0", "--repeat");
+  expectRefusal(file("room.bag") + " --frobnicate", "frobnicate");
+}
+
+TEST_F(EvaluateTest, RefusesUnreadableInput) {
+  expectRefusal(file("nothing.bag"), "nothing.bag");
+  fs::copy_file(file("room.bag"), file("cut.bag"));
+  fs::resize_file(file("cut.bag"), fs::file_size(file("cut.bag")) / 2);
+  expectRefusal(file("cut.bag"), "cut.bag");
+}
+
+TEST_F(EvaluateTest, RefusesWhatItWouldMisread) {
+  using ros_io::topics::kLeftImage;
+  using ros_io::topics::kRightImage;
+  using ros_io::topics::kRightInfo;
+  expectRefusal(copyWith<sensor_msgs::Image>("right.bag", kRightImage, [](auto&) { return false; }),
+                "no topic camera/right/image_raw");
+  expectRefusal(copyWith<sensor_msgs::Image>("float.bag", kLeftImage,
+                                             [](auto& image) {
+                                               image.encoding = "32FC1";
+                                               return true;
+                                             }),
+                "'32FC1' is not supported");
+  expectRefusal(copyWith<sensor_msgs::CameraInfo>("mono.bag", kRightInfo,
+                                                  [](auto& info) {
+                                                    info.P[3] = 0.0;
+                                                    return true;
+                                                  }),
+                "without baseline");
+  expectRefusal(copyWith<sensor_msgs::CameraInfo>("nan.bag", kRightInfo,
+                                                  [](auto& info) {
+                                                    info.K[2] = std::nan("");
+                                                    return true;
+                                                  }),
+                "NaN");
+  expectRefusal(copyWith<sensor_msgs::Image>("small.bag", kRightImage,
+                                             [](auto& image) {
+                                               image.height = 100;
+                                               image.data.resize(100 * image.step);
+                                               return true;
+                                             }),
+                "right image is 320x100");
+}
+
+TEST_F(EvaluateTest, RefusesGroundTruthThatDoesNotOverlapInTime) {
+  std::ofstream(file("later.tum")) << "5000.0 0 0 0 0 0 0 1\n5001.0 1 0 0 0 0 0 1\n";
+  expectRefusal(file("room.bag") + " --ground-truth " + file("later.tum"), "ground truth");
+  expectRefusal(file("room.bag") + " --ground-truth no/such/topic", "no ground truth topic no/such/topic");
+}
+
+TEST_F(EvaluateTest, RefusesAnOutputThatCannotBeWritten) {
+  std::ofstream(file("occupied")) << "a file";
+  const auto result = evaluate(file("room.bag") + " --output " + file("occupied"));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+}
+
+}  // namespace
+}  // namespace stereo_nav
