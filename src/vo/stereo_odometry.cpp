@@ -123,7 +123,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
     startAt(images, last_view_.T_camera_world, result);
   } else if (!follow(images, result)) {
     ++failures_;
-    result.state = failures_ > params_.max_coasting_frames ? State::kLost : State::kCoasting;
+    result.state = State::kLost;
     twist_.reset();
     if (failures_ > params_.max_coasting_frames) startAt(images, last_view_.T_camera_world, result);
   }
@@ -252,11 +252,23 @@ Eigen::Vector2d StereoOdometry::predictedPixel(std::size_t i, const StereoView& 
   return p.z() < kNearestDepth_m ? tracks_[i].last_px : projectLeft(calibration_, p);
 }
 
-bool StereoOdometry::trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px,
-                              int top_level) {
+Eigen::Matrix2f StereoOdometry::patchStep(std::size_t i, const StereoView& view) const {
+  // The keyframe is the last of the window as long as the current frame has no pose.
+  const Eigen::Isometry3d T_keyframe_camera = window_.back().T_camera_world * view.T_camera_world.inverse();
+  const Eigen::Vector3d p_world = landmarks_[i].p_world();
+  const double zoom =
+      (view.T_camera_world * p_world).z() / (window_.back().T_camera_world * p_world).z();
+  if (!(zoom > 0.5 && zoom < 2.0)) return Eigen::Matrix2f::Identity();
+  const Eigen::Matrix3d& R = T_keyframe_camera.linear();
+  const double roll = std::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
+  return (zoom * Eigen::Rotation2Dd(roll).toRotationMatrix()).cast<float>();
+}
+
+bool StereoOdometry::trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level,
+                              const Eigen::Matrix2f& step) {
   Track& track = tracks_[i];
-  const auto match =
-      tracker_.track(keyframe_image_, toCv(track.keyframe_px), images.left, toCv(guess_px), top_level);
+  const auto match = tracker_.track(keyframe_image_, toCv(track.keyframe_px), images.left, toCv(guess_px),
+                                    top_level, step);
   track.found = match.has_value();
   if (match) track.seen.left_px = toEigen(match->px);
   return track.found;
@@ -271,8 +283,9 @@ void StereoOdometry::trackAll(const Images& images, const StereoView& predicted)
     track.inlier = false;
     track.found = false;
     if (!track.alive) continue;
-    if (twist_ && trackOne(images, i, predictedPixel(i, predicted), std::min(2, coarsest))) continue;
-    trackOne(images, i, track.last_px, coarsest);
+    if (twist_ && trackOne(images, i, predictedPixel(i, predicted), std::min(2, coarsest), patchStep(i, predicted)))
+      continue;
+    trackOne(images, i, track.last_px, coarsest, Eigen::Matrix2f::Identity());
   }
 }
 

@@ -81,7 +81,9 @@ class StereoOdometry : public Odometry {
   MotionPrior motionPrior(const Images& images) const;
   StereoView predict(const Images& images, const MotionPrior& prior) const;
   void trackAll(const Images& images, const StereoView& predicted);
-  bool trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level);
+  bool trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level,
+                const Eigen::Matrix2f& step);
+  Eigen::Matrix2f patchStep(std::size_t i, const StereoView& view) const;
   void matchStereo(const Images& images, const StereoView& view);
   std::vector<std::size_t> selectRigid(const StereoView& predicted, FrameResult& result) const;
   PoseEstimate estimatePose(const std::vector<std::size_t>& selected, const MotionPrior& prior,
