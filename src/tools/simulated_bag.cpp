@@ -17,14 +17,23 @@ namespace topics = ros_io::topics;
 /// Simulation time 0; any date is as good, a fixed one gives the same bytes every time.
 const ros::Time kStart(1000000000, 0);
 
+/// Connection header of a topic that rosbag play shall latch as its publisher did.
+template <class Message>
+boost::shared_ptr<ros::M_string> latchedHeader() {
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["type"] = ros::message_traits::datatype<Message>();
+  (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+  (*header)["message_definition"] = ros::message_traits::definition<Message>();
+  (*header)["latching"] = "1";
+  return header;
+}
+
 /// Writes in order of arrival what lies between pairs.
 class BagWriter {
  public:
   BagWriter(rosbag::Bag& bag, const sim::Simulation& simulation, const ros_io::SimulatedMessages& messages)
       : bag_(bag), simulation_(simulation), messages_(messages) {
-    boost::shared_ptr<ros::M_string> latched = boost::make_shared<ros::M_string>();
-    (*latched)["latching"] = "1";  // rosbag play then latches it, too
-    bag_.write(topics::kTfStatic, kStart, messages_.staticTransforms(), latched);
+    bag_.write(topics::kTfStatic, kStart, messages_.staticTransforms(), latchedHeader<tf2_msgs::TFMessage>());
   }
 
   void writeUntil(double time_s) {

@@ -3,16 +3,22 @@
 #include <fcntl.h>
 #include <linux/videodev2.h>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -38,10 +44,11 @@ inline std::uint32_t readCounter(const cv::Mat& image) {
   return counter;
 }
 
-/// Writes images into a v4l2loopback device at a steady rate, on a grid of periods that all feeders share.
+/// Writes images into a v4l2loopback device at a steady rate, each stamped with the time at which it was due:
+/// what a camera's driver would do, however late a busy machine lets this thread run.
 class Feeder {
  public:
-  using Duration = std::chrono::nanoseconds;
+  using Time = std::chrono::steady_clock::time_point;
   /// The bytes of frame `counter`.
   using Source = std::function<std::vector<std::uint8_t>(std::uint32_t counter)>;
 
@@ -54,26 +61,38 @@ class Feeder {
     format.fmt.pix.pixelformat = fourcc;
     format.fmt.pix.sizeimage = static_cast<std::uint32_t>(width * height * 2);
     format.fmt.pix.field = V4L2_FIELD_NONE;
-    if (descriptor_ < 0 || ::ioctl(descriptor_, VIDIOC_S_FMT, &format) != 0) {
-      throw std::runtime_error("cannot feed " + path);
+    require(VIDIOC_S_FMT, &format);
+    int type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
+    require(VIDIOC_STREAMON, &type);
+    v4l2_requestbuffers request{};
+    request.count = kBuffers;
+    request.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
+    request.memory = V4L2_MEMORY_MMAP;
+    require(VIDIOC_REQBUFS, &request);
+    for (std::uint32_t index = 0; index < kBuffers; ++index) {
+      v4l2_buffer buffer = bufferAt(index);
+      require(VIDIOC_QUERYBUF, &buffer);
+      length_ = buffer.length;
+      memory_[index] =
+          ::mmap(nullptr, length_, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_, buffer.m.offset);
+      if (memory_[index] == MAP_FAILED) throw std::runtime_error("no memory to feed a camera");
     }
   }
 
   ~Feeder() {
     stop();
+    for (void* memory : memory_) ::munmap(memory, length_);
     ::close(descriptor_);
   }
 
-  void start(std::chrono::steady_clock::time_point first, Duration period, Source source) {
+  void start(Time first, std::chrono::nanoseconds period, Source source) {
     running_ = true;
     thread_ = std::thread([this, first, period, source = std::move(source)] {
       for (std::uint32_t counter = 0; running_; ++counter) {
         const auto bytes = source(counter);
-        const auto due = first + counter * period;
+        const Time due = first + counter * period;
         std::this_thread::sleep_until(due);
-        // Too late to be what its time says: not sent, as a camera would skip it.
-        if (std::chrono::steady_clock::now() - due > period / 8) continue;
-        if (::write(descriptor_, bytes.data(), bytes.size()) < 0) break;
+        if (std::chrono::steady_clock::now() < due + period) send(counter, bytes, due);
       }
     });
   }
@@ -84,7 +103,36 @@ class Feeder {
   }
 
  private:
+  static constexpr std::uint32_t kBuffers = 4;
+
+  void require(unsigned long request, void* argument) {
+    if (::ioctl(descriptor_, request, argument) == 0) return;
+    throw std::system_error(errno, std::generic_category(),
+                            "feeding a camera, request " + std::to_string(_IOC_NR(request)));
+  }
+
+  static v4l2_buffer bufferAt(std::uint32_t index) {
+    v4l2_buffer buffer{};
+    buffer.index = index;
+    buffer.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
+    buffer.memory = V4L2_MEMORY_MMAP;
+    return buffer;
+  }
+
+  void send(std::uint32_t counter, const std::vector<std::uint8_t>& bytes, Time due) {
+    const std::uint32_t index = counter % kBuffers;
+    std::memcpy(memory_[index], bytes.data(), std::min<std::size_t>(bytes.size(), length_));
+    v4l2_buffer buffer = bufferAt(index);
+    buffer.bytesused = static_cast<std::uint32_t>(bytes.size());
+    const auto due_us = std::chrono::duration_cast<std::chrono::microseconds>(due.time_since_epoch()).count();
+    buffer.timestamp.tv_sec = due_us / 1'000'000;
+    buffer.timestamp.tv_usec = due_us % 1'000'000;
+    require(VIDIOC_QBUF, &buffer);
+  }
+
   int descriptor_;
+  std::array<void*, kBuffers> memory_{};
+  std::size_t length_ = 0;
   std::atomic<bool> running_{false};
   std::thread thread_;
 };

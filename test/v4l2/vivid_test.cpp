@@ -1,5 +1,6 @@
 // Runs inside the virtual machine of vm.sh, on the kernel's two virtual test cameras (driver vivid).
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <chrono>
 #include <filesystem>
@@ -26,6 +27,7 @@ StereoConfig configOf(int width, int height) {
   config.left.device = kLeft;
   config.left.format = {PixelFormat::Yuyv, width, height, 15.0};
   config.left.encoding = Encoding::Mono8;
+  config.left.stall_timeout_s = 5.0;  // the machine is emulated: a busy host stops it for a while
   config.right = config.left;
   config.right.name = "right";
   config.right.device = kRight;
@@ -58,7 +60,9 @@ std::size_t openDescriptors() {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}));
 }
 
+/// Of memory in use: what was freed goes back to the system first.
 long residentKilobytes() {
+  malloc_trim(0);
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
     long value = 0;
@@ -84,9 +88,9 @@ class Vivid : public testing::Test {
   void expectKernelStamps(const std::vector<StereoImages>& pairs) {
     const auto check = [this](const Frame& frame, const std::string& path, std::size_t& at) {
       const auto buffers = kernel_.buffersOf(path);
-      while (at < buffers.size() && buffers[at].sequence != frame.sequence) ++at;
-      ASSERT_LT(at, buffers.size()) << path << " never had frame " << frame.sequence;
-      EXPECT_EQ(frame.stamp_ns, buffers[at].stamp_us * 1000);
+      while (at < buffers.size() && buffers[at].stamp_us * 1000 != frame.stamp_ns) ++at;
+      ASSERT_LT(at, buffers.size()) << path << " never gave the stamp " << frame.stamp_ns;
+      EXPECT_EQ(frame.sequence, buffers[at].sequence);
     };
     std::size_t left_at = 0, right_at = 0;
     for (const auto& images : pairs) {
@@ -128,11 +132,13 @@ TEST_P(VividSize, PairsAtTheDeliveredRateWithTheKernelsStamps) {
   EXPECT_EQ(status.right.lost, gapsIn(kRight));
   EXPECT_DOUBLE_EQ(status.left.format.rate_hz, 15.0);
   EXPECT_EQ(status.left.clock_warning, "");
-  // Every frame that both cameras delivered is in a pair, but for the first and last ones.
+  // Every frame delivered is in a pair, has no partner (and is counted), or waits for one: at most four do.
   const auto& alone = status.pairing.without_partner;
-  EXPECT_GE(status.pairing.pairs + 4 + status.left.lost + status.right.lost + status.left.skipped +
-                status.right.skipped + alone[0] + alone[1],
-            std::min(status.left.frames, status.right.frames));
+  const auto waiting = [&](const CameraStatus& camera, std::uint64_t without_partner) {
+    return camera.frames - status.pairing.pairs - without_partner;
+  };
+  EXPECT_LE(waiting(status.left, alone[0]), 4u);
+  EXPECT_LE(waiting(status.right, alone[1]), 4u);
   std::cout << pairs.size() << " pairs of " << status.left.frames << " + " << status.right.frames
             << " frames, " << alone[0] + alone[1] << " without partner, lost " << status.left.lost << " + "
             << status.right.lost << ", pair rate " << status.pair_rate_hz << " Hz\n";
@@ -221,6 +227,7 @@ TEST_F(Vivid, ComesBackWhenBothCamerasWereRemovedAndBoundAgain) {
 }
 
 TEST_F(Vivid, FiftyReconnectionsLeaveNothingBehind) {
+  rig_.keepImages(false);
   rig_.start(configOf(320, 180));
   ASSERT_TRUE(rig_.pairsCome(3));
   const auto cycle = [this](std::uint64_t number) {
@@ -238,7 +245,7 @@ TEST_F(Vivid, FiftyReconnectionsLeaveNothingBehind) {
   std::cout << "memory grew by " << growth_kb << " kB over 40 reconnections, " << descriptors
             << " descriptors\n";
   RecordProperty("memory_growth_kb", std::to_string(growth_kb));
-  EXPECT_LT(growth_kb, 2048) << "one image of each size is 115 kB; the record of buffers grows a little";
+  EXPECT_LT(growth_kb, 2048) << "the record of stamps grows by some 100 bytes a frame";
 }
 
 TEST_F(Vivid, MatchExposureLetsTheRightGainFollow) {

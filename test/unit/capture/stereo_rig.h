@@ -29,6 +29,10 @@ class StereoRig {
         [this, receiver_delay](StereoImages images) {
           std::this_thread::sleep_for(receiver_delay);
           const std::lock_guard<std::mutex> lock(mutex_);
+          if (!keep_images_) {
+            images.pair.left.image = DecodedImage();
+            images.pair.right.image = DecodedImage();
+          }
           pairs_.push_back(std::move(images));
         },
         [this](Severity, const std::string& text) {
@@ -43,6 +47,9 @@ class StereoRig {
     stereo_->stop();
     return std::exchange(pairs_, {});
   }
+
+  /// Without, the pairs are kept with stamps only. To be called before start().
+  void keepImages(bool keep) { keep_images_ = keep; }
 
   StereoCamera& camera() { return *stereo_; }
   CameraStatus left() const { return stereo_->status().left; }
@@ -77,6 +84,7 @@ class StereoRig {
  private:
   Kernel& kernel_;
   DeviceFinder finder_;
+  bool keep_images_ = true;
   std::mutex mutex_;
   std::vector<StereoImages> pairs_;
   std::string log_;
