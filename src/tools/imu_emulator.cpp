@@ -106,6 +106,14 @@ class Emulator {
     std::cout << std::endl;
   }
 
+  /// The module is switched on when its port is opened.
+  void waitForReader() {
+    while (interrupted == 0 && !terminal_->baudRate()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    start_s_ = imu::steadyNow_s();
+  }
+
   double elapsed_s() const { return imu::steadyNow_s() - start_s_; }
 
  private:
@@ -116,8 +124,8 @@ class Emulator {
   }
 
   std::vector<std::uint8_t> asReceived(const std::vector<std::uint8_t>& bytes) {
-    const int reader_baud = terminal_->baudRate();
-    if (reader_baud == options_.baud_rate || reader_baud <= 0 || !opened(reader_baud)) return bytes;
+    const int reader_baud = terminal_->baudRate().value_or(options_.baud_rate);
+    if (reader_baud == options_.baud_rate) return bytes;
     if (!receiver_ || receiver_baud_ != reader_baud) {
       receiver_ = std::make_unique<imu::MismatchedReceiver>(options_.baud_rate, reader_baud);
       receiver_baud_ = reader_baud;
@@ -126,9 +134,6 @@ class Emulator {
     receiver_->receive(bytes, received);
     return received;
   }
-
-  /// Until somebody sets a rate, the terminal has the kernel's default of 38400.
-  static bool opened(int reader_baud) { return reader_baud != 38400; }
 
   void writeLog(const imu::MotionState& state, double time_s) {
     const imu::ModuleAngles angles = options_.protocol == imu::Protocol::kAngles
@@ -197,6 +202,7 @@ int run(int argc, char** argv) {
   }
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
   Emulator emulator(*options);
+  if (options->wait_for_reader) emulator.waitForReader();
   if (options->follow_topic.empty()) {
     followMotion(emulator);
   } else {

@@ -88,6 +88,7 @@ po::options_description describeOptions(EmulatorOptions& o) {
       ("batch", po::value(&o.batch_s)->default_value(o.batch_s),
        "the adapter hands bytes over every so many seconds")                                             //
       ("duration", po::value(&o.duration_s)->default_value(0.0), "seconds; 0: until interrupted")        //
+      ("wait-for-reader", po::bool_switch(&o.wait_for_reader), "begin when the port is opened")          //
       ("link", po::value(&o.links)->composing(), "name for the port, a symbolic link; may be repeated")  //
       ("replug-link", po::value(&o.replug_link), "the first --link after the module was unplugged")      //
       ("log", po::value(&o.log), "CSV file: steady time, yaw, pitch, roll of every frame sent")          //

@@ -26,6 +26,7 @@ struct EmulatorOptions {
   int baud_rate = 115200;
   double batch_s = 0.016;
   double duration_s = 0.0;         ///< 0: until interrupted
+  bool wait_for_reader = false;    ///< begin when the port is opened
   std::vector<std::string> links;  ///< names under which the port appears
   std::string replug_link;         ///< the first name after it was unplugged; empty: the same
   std::string log;                 ///< CSV of what was sent; empty: none
