@@ -20,7 +20,7 @@ std::vector<std::pair<Eigen::Vector2d, cv::Point2f>> findCorners(const Simulatio
   const Eigen::Isometry3d T_camera_world = simulation.cameraPose(side, simulation.imageTime(side, 0)).inverse();
   std::vector<std::pair<Eigen::Vector2d, cv::Point2f>> corners;
   for (int column = -20; column <= 20; ++column) {
-    for (int row = -10; row <= 10; ++row) {
+    for (int row = -15; row <= 0; ++row) {
       const Eigen::Vector3d corner_world(wall.x_m - 0.5 * wall.length_m, wall.y_m + column * kSquare_m,
                                          0.5 * wall.height_m + row * kSquare_m);
       const Eigen::Vector3d p = T_camera_world * corner_world;
@@ -62,11 +62,11 @@ TEST(Renderer, ATextureOfOneValueGivesItsGreyLevelEverywhere) {
   wall.material.contrast = 0.0;
   wall.material.brightness = 0.4;
   scenario.scene.objects = {wall};
-  const cv::Mat image = Simulation(scenario, thesisRig(), 1).image(Side::kLeft, 0);
+  const cv::Mat image = Simulation(scenario, thesisRig(), 1).image(Side::kLeft, 0).rowRange(0, 160);  // above the floor
   double low, high;
   cv::minMaxLoc(image, &low, &high);
   EXPECT_EQ(low, high);
-  EXPECT_NEAR(low, 0.4 * 255.0 * 0.95, 1.0);  // its side towards the start lies in a little shade
+  EXPECT_NEAR(low, 0.4 * 255.0 * 0.95, 1.0);  // sides that face this way get 95 % of the light
 }
 
 /// Column where the grey level passes the middle between the two sides of a vertical edge.
@@ -125,8 +125,8 @@ TEST(Renderer, ARollingShutterShearsByTheMotionDuringTheReadout) {
   const cv::Mat a = global.image(Side::kLeft, pair), b = rolling.image(Side::kLeft, pair);
   const auto shift = [&](int row) { return edgeColumn(b, row) - edgeColumn(a, row); };
   // 60 deg/s * 25 ms = 1.5 deg = 10.9 px at f = 417 from the first row to the last one.
-  EXPECT_NEAR(shift(230) - shift(10), 10.9 * 220.0 / 240.0, 1.0);
-  EXPECT_NEAR(shift(119), 0.0, 0.5);
+  EXPECT_NEAR(shift(150) - shift(10), 10.9 * 140.0 / 240.0, 1.0);
+  EXPECT_NEAR(shift(119), 0.0, 0.6);
 }
 
 TEST(Renderer, ImagesDoNotDependOnTheThread) {
