@@ -48,13 +48,13 @@ FrameSynchroniserParams synchroniserParams(FrameSynchroniserParams params, const
   return params;
 }
 
-/// Waits a moment: transforms and first images of a bag come at the same time, and the first frame is the
+/// Waits a moment, once: transforms and first images of a bag come together, and the first frame is the
 /// origin.
 TransformLookup lookupIn(tf2_ros::Buffer& buffer) {
-  return [&buffer](const std::string& target, const std::string& source,
-                   std::string& error) -> std::optional<Eigen::Isometry3d> {
-    constexpr int kTries = 10;
-    for (int attempt = 0; !buffer.canTransform(target, source, ros::Time(0)) && attempt < kTries; ++attempt) {
+  constexpr int kTries = 20;
+  return [&buffer, tries_left = kTries](const std::string& target, const std::string& source,
+                                        std::string& error) mutable -> std::optional<Eigen::Isometry3d> {
+    for (; tries_left > 0 && !buffer.canTransform(target, source, ros::Time(0)); --tries_left) {
       ros::WallDuration(0.01).sleep();  // the ROS clock may stand still
     }
     try {

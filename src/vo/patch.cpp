@@ -213,19 +213,26 @@ Patch::Sums Patch::correlate(const Grid& grid) const {
 }
 
 float Patch::correlation(const cv::Mat& image, int x, int y) const {
-  alignas(16) Grid grid;
+  cv::v_int32x4 product = cv::v_setzero_s32();
+  cv::v_int32x4 ones = cv::v_setzero_s32();
+  cv::v_int32x4 squares = cv::v_setzero_s32();
   const int half = window_ / 2;
   const auto step = static_cast<std::ptrdiff_t>(image.step);
-  for (int r = 0; r < window_; ++r) {
-    const uchar* row = image.data + (y - half + r) * step + x - half;
+  const uchar* row = image.data + (y - half) * step + x - half;
+  for (int r = 0; r < window_; ++r, row += step) {
     for (int c = 0; c < stride_; c += 8) {
-      cv::v_store_aligned(grid.data() + r * stride_ + c,
-                          cv::v_reinterpret_as_s16(cv::v_load_expand(row + c)) << kFractionBits);
+      const cv::v_int16x8 value = cv::v_reinterpret_as_s16(cv::v_load_expand(row + c));
+      const cv::v_int16x8 mask = cv::v_load_aligned(mask_.data() + c);
+      product = cv::v_dotprod(value, cv::v_load_aligned(intensity_.data() + r * stride_ + c), product);
+      ones = cv::v_dotprod(value, mask, ones);
+      squares = cv::v_dotprod(value, cv::v_mul_wrap(value, mask), squares);
     }
   }
-  const Sums sums = correlate(grid);
-  const float variance = sums.squares - sums.sum * sums.sum / static_cast<float>(window_ * window_);
-  return variance > 0.0F ? sums.by_intensity / (intensity_norm_ * std::sqrt(variance)) : 0.0F;
+  const auto sum = static_cast<float>(cv::v_reduce_sum(ones));
+  const float variance =
+      static_cast<float>(cv::v_reduce_sum(squares)) - sum * sum / static_cast<float>(window_ * window_);
+  if (variance <= 0.0F) return 0.0F;
+  return static_cast<float>(cv::v_reduce_sum(product)) / (intensity_norm_ * std::sqrt(variance));
 }
 
 std::optional<Patch::Match> Patch::align(const cv::Mat& image, const cv::Point2f& guess, int iterations,

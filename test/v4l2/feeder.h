@@ -106,8 +106,9 @@ class Feeder {
   static constexpr std::uint32_t kBuffers = 4;
 
   void require(unsigned long request, void* argument) {
-    if (::ioctl(descriptor_, request, argument) != 0)
-      throw std::runtime_error("cannot feed a loopback camera");
+    if (::ioctl(descriptor_, request, argument) == 0) return;
+    throw std::system_error(errno, std::generic_category(),
+                            "feeding a camera, request " + std::to_string(_IOC_NR(request)));
   }
 
   static v4l2_buffer bufferAt(std::uint32_t index) {

@@ -19,6 +19,8 @@
 # by apt-get once, the module built, and both kept in $V4L2_VM_CACHE (default ~/.cache/stereo_nav/v4l2-vm).
 set -euo pipefail
 
+# The machine is made anew when this script changes.
+version=$(sha256sum "${BASH_SOURCE[0]}" | cut -c1-16)
 cache=${V4L2_VM_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/stereo_nav/v4l2-vm}
 out="" seconds=300
 
@@ -29,12 +31,14 @@ kernel_release() {
   [[ -n $folder ]] && echo "${folder#/usr/src/linux-headers-}"
 }
 
+is_ready() { [[ $(cat "$cache/ready" 2>/dev/null) == "$version" ]]; }
+
 missing_parts() {
   local tool
   for tool in qemu-system-x86_64 busybox cpio depmod modprobe make gcc apt-get flock; do
     command -v "$tool" >/dev/null || echo "$tool"
   done
-  [[ -s $cache/ready ]] || kernel_release >/dev/null || echo "linux-headers-amd64 (Debian 12)"
+  is_ready || kernel_release >/dev/null || echo "linux-headers-amd64 (Debian 12)"
 }
 
 # list_modules ROOT RELEASE NAME...: files of the modules and what they need, in the order of loading.
@@ -54,7 +58,7 @@ $b mount -t proc proc /proc; $b mount -t sysfs sys /sys; $b mount -t devtmpfs de
 for m in $($b cat /mods/order); do
   case $m in
     vivid.ko) $b insmod /mods/$m n_devs=2 node_types=0x1,0x1 ;;
-    v4l2loopback.ko) $b insmod /mods/$m devices=2 video_nr=10,11 card_label=left,right exclusive_caps=0,0 ;;
+    v4l2loopback.ko) $b insmod /mods/$m devices=2 max_buffers=8 video_nr=10,11 card_label=left,right ;;
     *) $b insmod /mods/$m ;;
   esac
 done
@@ -78,7 +82,8 @@ prepare() {
   release=$(kernel_release)
   rm -rf "$work"
   mkdir -p "$ramfs"/{bin,mods,proc,sys,dev,lower,upper,newroot}
-  (cd "$work" && apt-get download -qq "linux-image-$release" v4l2loopback-dkms >/dev/null)
+  # Root's apt warns that it does not drop its rights for a folder of root's.
+  (cd "$work" && apt-get -o APT::Sandbox::User=root download -qq "linux-image-$release" v4l2loopback-dkms >/dev/null)
   for file in "$work"/*.deb; do dpkg -x "$file" "$work/root"; done
   cp -r "$work"/root/usr/src/v4l2loopback-* "$work/loopback"
   make -s -C "/usr/src/linux-headers-$release" M="$work/loopback" modules >"$work/module.log" 2>&1
@@ -94,7 +99,7 @@ prepare() {
   (cd "$ramfs" && find . | cpio -o -H newc 2>/dev/null | gzip) >"$cache/initrd.gz"
   cp "$work/root/boot/vmlinuz-$release" "$cache/vmlinuz"
   rm -rf "$work"
-  echo "$release" >"$cache/ready"
+  echo "$version" >"$cache/ready"
 }
 
 boot() {
@@ -123,7 +128,7 @@ out=$(realpath "${out:-$(mktemp -d)}")
 mkdir -p "$out" "$cache"
 (
   flock 9
-  [[ -s $cache/ready ]] || prepare
+  is_ready || prepare
 ) 9>"$cache/lock"
 
 {

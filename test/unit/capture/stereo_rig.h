@@ -29,7 +29,10 @@ class StereoRig {
         [this, receiver_delay](StereoImages images) {
           std::this_thread::sleep_for(receiver_delay);
           const std::lock_guard<std::mutex> lock(mutex_);
-          if (!keep_images_) images.pair.left.image.pixels = images.pair.right.image.pixels = {};
+          if (!keep_images_) {
+            images.pair.left.image = DecodedImage();
+            images.pair.right.image = DecodedImage();
+          }
           pairs_.push_back(std::move(images));
         },
         [this](Severity, const std::string& text) {

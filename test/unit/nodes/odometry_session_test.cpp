@@ -1,6 +1,5 @@
 #include "stereo_nav/nodes/odometry_session.h"
 
-#include <cv_bridge/cv_bridge.h>
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
@@ -9,6 +8,7 @@
 #include "stereo_nav/nodes/setup_checks.h"
 #include "stereo_nav/vo/base_pose.h"
 #include "support/fixture_bag.h"
+#include "support/room_frame.h"
 #include "support/textured_room.h"
 
 namespace stereo_nav::nodes {
@@ -25,13 +25,6 @@ Eigen::Isometry3d baseToCamera() {
   return T;
 }
 
-sensor_msgs::ImageConstPtr imageMessage(const cv::Mat& image, const char* encoding, double time_s) {
-  std_msgs::Header header;
-  header.stamp = ros::Time(time_s);
-  header.frame_id = ros_io::frames::kLeftOptical;
-  return cv_bridge::CvImage(header, encoding, image).toImageMsg();
-}
-
 /// The drive through the textured room as a node would receive it, with exact disparity.
 class OdometrySessionTest : public testing::Test {
  protected:
@@ -44,18 +37,12 @@ class OdometrySessionTest : public testing::Test {
 
   /// The frame of the drive at `drive_s`, stamped `kStart_s` later.
   static Inbox::Work frameAt(double drive_s) {
-    const auto calibration = test::roomCalibration();
-    const test::TexturedRoom room;
-    const Eigen::Isometry3d pose = test::roomDrive(drive_s);
-    const auto pair = room.renderPair(pose, pose, calibration);
+    const test::RoomFrame frame = test::roomFrame(drive_s, ros::Time(kStart_s + drive_s));
     Inbox::Work work;
-    work.frame.left = imageMessage(pair.left, "mono8", kStart_s + drive_s);
-    work.frame.right = imageMessage(pair.right, "mono8", kStart_s + drive_s);
-    auto disparity = boost::make_shared<stereo_msgs::DisparityImage>();
-    disparity->image = *imageMessage(room.disparity(pose, calibration), "32FC1", kStart_s + drive_s);
-    disparity->header = disparity->image.header;
-    work.frame.disparity = disparity;
-    work.frame.left_stamp = work.frame.right_stamp = ros::Time(kStart_s + drive_s);
+    work.frame.left = frame.left;
+    work.frame.right = frame.right;
+    work.frame.disparity = frame.disparity;
+    work.frame.left_stamp = work.frame.right_stamp = frame.left->header.stamp;
     return work;
   }
 

@@ -1,32 +1,27 @@
-// The command line: exit status, one line on stderr, nothing half-written.
-#include <sys/wait.h>
-
+// The command line: exit status, one line of error, nothing half-written.
 #include <algorithm>
-#include <cstdlib>
 
 #include "import_test_support.h"
+#include "support/command.h"
 
 namespace stereo_nav::tools {
 namespace {
 
 class ImportProgram : public ::testing::Test {
  protected:
-  int run(const std::string& arguments) {
-    const std::string command = std::string(IMPORT_SEQUENCE) + " " + arguments + " >" + (folder_ / "stdout") +
-                                " 2>" + (folder_ / "stderr");
-    const int status = std::system(command.c_str());  // the test's own words, nothing from outside
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  static test::CommandResult run(const std::string& arguments) {
+    return test::runCommand(std::string(IMPORT_SEQUENCE) + " " + arguments);
   }
 
   /// Runs what must fail with status 2, one line, and no bag; returns the line.
   std::string failureOf(const std::string& arguments) {
-    EXPECT_EQ(run(arguments), 2) << arguments;
-    const std::string line = folder_.read("stderr");
-    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+    const auto result = run(arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
       EXPECT_EQ(entry.path().string().find(".bag"), std::string::npos) << entry.path();
     }
-    return line;
+    return result.output;
   }
 
   std::string to(const std::string& name) const { return folder_.path() + " --output " + (folder_ / name); }
@@ -36,14 +31,15 @@ class ImportProgram : public ::testing::Test {
 
 TEST_F(ImportProgram, importsAndSaysHowMany) {
   writeKitti(folder_);
-  EXPECT_EQ(run("--format kitti " + to("out.bag") + " --every 2"), 0);
-  EXPECT_NE(folder_.read("stdout").find("out.bag: 2 pairs"), std::string::npos);
+  const auto result = run("--format kitti " + to("out.bag") + " --every 2");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.output.find("out.bag: 2 pairs"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out.bag"));
 }
 
 TEST_F(ImportProgram, helpNamesEveryOption) {
-  EXPECT_EQ(run("--help"), 0);
-  const std::string help = folder_.read("stdout");
+  const auto [status, help] = run("--help");
+  EXPECT_EQ(status, 0);
   for (const char* option : {"--format", "--output", "--every", "--right-lag-frames",
                              "--right-stamp-offset-ms", "--no-imu", "--base-frame"}) {
     EXPECT_NE(help.find(option), std::string::npos) << option;
