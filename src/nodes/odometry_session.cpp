@@ -142,8 +142,8 @@ void OdometrySession::makeOdometry(SessionOutput& output) {
   base_.emplace(params_.uncertainty, T_base_camera_);
   if (before) base_->start(before->estimate().T_odom_base, before->estimate().pose_covariance);
   camera_order_.emplace(calibration_);
-  output.announcements.push_back("odometry of " + params_.base_frame + " from camera " + camera_frame_ +
-                                 (imu_frame_.empty() ? " without IMU" : " with IMU " + imu_frame_));
+  output.notes.push_back("odometry of " + params_.base_frame + " from camera " + camera_frame_ +
+                         (imu_frame_.empty() ? " without IMU" : " with IMU " + imu_frame_));
 }
 
 void OdometrySession::level(double time_s, SessionOutput& output) {

@@ -1,17 +1,16 @@
 // Holds a paused `rosbag play` until every subscriber of the graph is connected, then lets it run once. A
 // subscriber that connects later misses what was published before; with a chain of nodelets that is the first
 // few frames.
-#include <ros/network.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
-#include <xmlrpcpp/XmlRpcClient.h>
 
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "stereo_nav/nodes/slave_api.h"
 
 namespace {
 
@@ -34,22 +33,10 @@ NodesByTopic readNodes(XmlRpc::XmlRpcValue& list) {
 /// What the publisher itself says of its established connections.
 std::set<Connection> connectionsOf(const std::string& node) {
   std::set<Connection> connections;
-  XmlRpc::XmlRpcValue arguments, result, payload;
-  arguments[0] = ros::this_node::getName();
-  arguments[1] = node;
-  if (!ros::master::execute("lookupNode", arguments, result, payload, false)) return connections;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::network::splitURI(static_cast<std::string>(payload), host, port)) return connections;
-  XmlRpc::XmlRpcValue caller, bus;
-  caller[0] = ros::this_node::getName();
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  if (!client.execute("getBusInfo", caller, bus) || bus.getType() != XmlRpc::XmlRpcValue::TypeArray ||
-      bus.size() < 3) {
-    return connections;
-  }
-  for (int i = 0; i < bus[2].size(); ++i) {
-    auto& entry = bus[2][i];  // id, other end, direction, transport, topic, ...
+  XmlRpc::XmlRpcValue bus;
+  if (!stereo_nav::nodes::askNode(node, "getBusInfo", bus)) return connections;
+  for (int i = 0; i < bus.size(); ++i) {
+    auto& entry = bus[i];  // id, other end, direction, transport, topic, ...
     if (static_cast<std::string>(entry[2]) != "o") continue;
     connections.emplace(static_cast<std::string>(entry[4]), static_cast<std::string>(entry[1]));
   }
@@ -111,7 +98,10 @@ int main(int argc, char** argv) {
   ros::NodeHandle handle;
   ros::NodeHandle private_handle("~");
   std::vector<std::string> required;
+  std::vector<std::string> also;
   private_handle.getParam("topics", required);
+  private_handle.getParam("also", also);
+  required.insert(required.end(), also.begin(), also.end());
   for (auto& topic : required) topic = handle.resolveName(topic);
   const double timeout_s = private_handle.param("timeout_s", 30.0);
   const auto player = private_handle.param<std::string>("player", "player");

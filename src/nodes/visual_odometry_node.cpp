@@ -13,6 +13,9 @@ namespace {
 /// Names in the private namespace that belong to others.
 const std::set<std::string> kForeignParameters = {"vo", "image_transport", "diagnostic_period"};
 
+constexpr double kTimerPeriod_s = 0.25;
+constexpr unsigned int kTicksPerReport = 4;
+
 VisualOdometryParams readNodeParams(const ros::NodeHandle& private_handle) {
   VisualOdometryParams params;
   ros_io::readParameters(private_handle, kForeignParameters, params);
@@ -45,9 +48,15 @@ FrameSynchroniserParams synchroniserParams(FrameSynchroniserParams params, const
   return params;
 }
 
+/// Waits a moment, once: transforms and first images of a bag come together, and the first frame is the
+/// origin.
 TransformLookup lookupIn(tf2_ros::Buffer& buffer) {
-  return [&buffer](const std::string& target, const std::string& source,
-                   std::string& error) -> std::optional<Eigen::Isometry3d> {
+  constexpr int kTries = 20;
+  return [&buffer, tries_left = kTries](const std::string& target, const std::string& source,
+                                        std::string& error) mutable -> std::optional<Eigen::Isometry3d> {
+    for (; tries_left > 0 && !buffer.canTransform(target, source, ros::Time(0)); --tries_left) {
+      ros::WallDuration(0.01).sleep();  // the ROS clock may stand still
+    }
     try {
       return ros_io::toIsometry(buffer.lookupTransform(target, source, ros::Time(0)).transform);
     } catch (const tf2::TransformException& exception) {
@@ -90,7 +99,7 @@ VisualOdometryNode::VisualOdometryNode(const ros::NodeHandle& handle, const ros:
   reset_service_ = handle_.advertiseService("vo/reset", &VisualOdometryNode::handleReset, this);
   set_pose_service_ = handle_.advertiseService("vo/set_pose", &VisualOdometryNode::handleSetPose, this);
   subscribe();
-  timer_ = handle_.createWallTimer(ros::WallDuration(1.0), &VisualOdometryNode::handleTimer, this);
+  timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s), &VisualOdometryNode::handleTimer, this);
 }
 
 VisualOdometryNode::~VisualOdometryNode() {
@@ -281,26 +290,23 @@ bool VisualOdometryNode::handleSetPose(SetPose::Request& request, SetPose::Respo
 
 void VisualOdometryNode::handleTimer(const ros::WallTimerEvent&) {
   const double now_s = watchedSeconds();
+  if (++ticks_ % kTicksPerReport != 0) return;
   health_.replace("silent: ", true, monitor_->silentInputs(now_s));
   health_.replace("synchronisation", true, {{"", monitor_->unsynchronised(now_s)}});
-  FrameCounts counts;
-  {
-    const std::lock_guard<std::mutex> lock(setup_mutex_);
-    counts = counts_;
-  }
-  std::string drops;
-  if (counts.dropped > dropped_reported_) {
-    drops = std::to_string(counts.dropped - dropped_reported_) +
-            " of the last second's frames were dropped: images of a frame are lost on the way, or the "
-            "computer is too "
-            "slow for the cameras. Compare vo/status stage_times_ms with the frame rate; lower rate or "
-            "resolution";
-  }
-  dropped_reported_ = counts.dropped;
-  health_.replace("dropped frames", false, {{"", drops}});
+  health_.replace("dropped frames", false, {{"", newDrops()}});
   health_.setCount("frames without late IMU", inbox_.framesWithoutImu());
   health_.setCount("IMU messages dropped", inbox_.imuDropped() + imu_refused_);
   health_.publishDiagnostics();
+}
+
+std::string VisualOdometryNode::newDrops() {
+  const std::uint64_t dropped = synchroniser_.dropped() + inbox_.framesDropped();
+  const std::uint64_t since_last = dropped - std::exchange(dropped_reported_, dropped);
+  if (since_last == 0) return "";
+  return std::to_string(since_last) +
+         " of the last second's frames were dropped: parts of them were lost on the way, or the computer is "
+         "too slow "
+         "for the cameras. Run the odometry as a nodelet, or lower rate or resolution";
 }
 
 double VisualOdometryNode::watchedSeconds() {
@@ -311,7 +317,7 @@ double VisualOdometryNode::watchedSeconds() {
     if (ros_now == last_ros_time_) return watched_s_;
     last_ros_time_ = ros_now;
   }
-  constexpr double kLongestTick_s = 2.0;  // of a moving clock; anything longer was a pause
+  constexpr double kLongestTick_s = 2.0 * kTimerPeriod_s;  // anything longer was a pause
   const std::chrono::duration<double> elapsed = steady_now - last_steady_time_;
   watched_s_ += std::min(elapsed.count(), kLongestTick_s);
   last_steady_time_ = steady_now;
@@ -347,6 +353,7 @@ void VisualOdometryNode::processFrame(const Inbox::Work& work) {
   }
   const std::chrono::duration<double, std::milli> latency =
       std::chrono::steady_clock::now() - work.frame.arrival;
+  for (const auto& note : output.notes) ROS_INFO_STREAM(name_ << ": " << note);
   for (const auto& announcement : output.announcements) ROS_WARN_STREAM(name_ << ": " << announcement);
   health_.replace("setup: ", true, output.errors);
   health_.replace("quality: ", false, output.warnings);

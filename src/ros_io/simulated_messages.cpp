@@ -21,7 +21,8 @@ geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& v) {
   return message;
 }
 
-geometry_msgs::TransformStamped transform(const ros::Time& stamp, const char* child, const Eigen::Isometry3d& T) {
+geometry_msgs::TransformStamped transform(const ros::Time& stamp, const char* child,
+                                          const Eigen::Isometry3d& T) {
   geometry_msgs::TransformStamped message = tf2::eigenToTransform(T);
   message.header.stamp = stamp;
   message.header.frame_id = frames::kBase;
@@ -48,9 +49,11 @@ sensor_msgs::CameraInfo SimulatedMessages::info(sim::Side side, const std_msgs::
   return info;
 }
 
-sensor_msgs::Image SimulatedMessages::image(sim::Side side, std::size_t pair, const std_msgs::Header& header) const {
+sensor_msgs::Image SimulatedMessages::image(sim::Side side, std::size_t pair,
+                                            const std_msgs::Header& header) const {
   sensor_msgs::Image message;
-  cv_bridge::CvImage(header, sensor_msgs::image_encodings::MONO8, simulation_.image(side, pair)).toImageMsg(message);
+  cv_bridge::CvImage(header, sensor_msgs::image_encodings::MONO8, simulation_.image(side, pair))
+      .toImageMsg(message);
   return message;
 }
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "import/derived_sequence.h"
 #include "import/sequence_bag.h"
 #include "stereo_nav/eval/atomic_file.h"
 #include "stereo_nav/ros_io/conversions.h"
@@ -38,6 +39,8 @@ struct Arguments {
   std::string format;
   std::string folder;
   std::string output;
+  bool reverse = false;
+  bool mirror = false;
   BagOptions bag;
 };
 
@@ -52,6 +55,9 @@ po::options_description describeOptions(Arguments& arguments, double& right_stam
   options.add_options()("right-stamp-offset-ms", po::value(&right_stamp_offset_ms),
                         "lie about the right stamps by a constant");
   options.add_options()("no-imu", "leave the IMU out");
+  options.add_options()("reverse", po::bool_switch(&arguments.reverse), "let time run backwards");
+  options.add_options()("mirror", po::bool_switch(&arguments.mirror),
+                        "flip the images left to right and swap the cameras");
   options.add_options()("base-frame", po::value<std::string>(), "imu or camera: where base_link is");
   return options;
 }
@@ -122,6 +128,8 @@ int run(int argc, char** argv) {
   if (!parse(argc, argv, arguments)) return 0;
   { const eval::AtomicFile writable(arguments.output); }  // before the work, not after it
   Sequence sequence = readSequence(arguments);
+  if (arguments.reverse) reverse(sequence);
+  if (arguments.mirror) mirror(sequence);
   for (const auto& note : sequence.notes) std::fprintf(stderr, "import_sequence: note: %s\n", note.c_str());
   const BagSummary summary = writeBag(sequence, arguments.bag, arguments.output, showProgress);
   if (summary.left_without_partner > 0) {

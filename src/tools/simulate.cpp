@@ -21,7 +21,8 @@ int run(int argc, char** argv) {
   const sim::Simulation simulation(sim::loadScenario(options->scenario, options->overrides),
                                    sim::loadStereoCalibration(options->calibration), options->seed);
   writeSimulatedBag(options->output, simulation,
-                    {options->duration_s, options->threads, options->images, options->compress}, showProgress);
+                    {options->duration_s, options->threads, options->images, options->compress},
+                    showProgress);
   return 0;
 }
 

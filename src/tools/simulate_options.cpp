@@ -20,8 +20,8 @@ template <class Params>
 void printTable(const char* title, const Params& params) {
   std::cout << title << ":\n";
   for (const ParameterDoc& doc : documentParameters(params)) {
-    std::cout << "  " << doc.name << " = " << doc.default_value << " " << doc.unit << " (" << doc.range << "): " << doc.doc
-              << "\n";
+    std::cout << "  " << doc.name << " = " << doc.default_value << " " << doc.unit << " (" << doc.range
+              << "): " << doc.doc << "\n";
   }
 }
 
@@ -50,20 +50,23 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
   options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   po::options_description visible(
       "usage: simulate SCENARIO --output BAG [options]\n"
-      "Drives a robot through a simulated world and records what its cameras and IMU see, and the truth. SCENARIO is a "
+      "Drives a robot through a simulated world and records what its cameras and IMU see, and the truth. "
+      "SCENARIO is a "
       "file, or the name of one in the package's config/scenarios. The same seed gives the same bytes");
-  visible.add_options()                                                                    //
-      ("help,h", "this text")                                                              //
-      ("parameters", "lists what a scenario may hold, with ranges and defaults")           //
-      ("output", po::value<std::string>(&options.output), "bag to write")                  //
+  visible.add_options()                                                                                 //
+      ("help,h", "this text")                                                                           //
+      ("parameters", "lists what a scenario may hold, with ranges and defaults")                        //
+      ("output", po::value<std::string>(&options.output), "bag to write")                               //
       ("seed", po::value<std::uint64_t>(&options.seed), "of noise, jitter and IMU errors (default 1)")  //
-      ("skew-ms", po::value<double>(), "right images are taken this much later; same as --set timing.skew_ms=S")  //
+      ("skew-ms", po::value<double>(),
+       "right images are taken this much later; same as --set timing.skew_ms=S")  //
       ("set", po::value<std::vector<std::string>>(&options.overrides),
-       "NAME=VALUE, changes a parameter of the scenario, e.g. imu.kind=perfect; may be repeated")      //
-      ("calibration", po::value<std::string>(), "folder with left.yaml and right.yaml (default: the thesis' rig)")  //
+       "NAME=VALUE, changes a parameter of the scenario, e.g. imu.kind=perfect; may be repeated")  //
+      ("calibration", po::value<std::string>(),
+       "folder with left.yaml and right.yaml (default: the thesis' rig)")                                  //
       ("duration", po::value<double>(&options.duration_s), "seconds to record (default: the whole path)")  //
       ("threads", po::value<int>(&options.threads), "for rendering; the result does not depend on it")     //
-      ("no-images", "IMU and ground truth only")                                                         //
+      ("no-images", "IMU and ground truth only")                                                           //
       ("compress", "a smaller bag (bz2), slower to write and read");
   po::options_description all;
   all.add(visible).add_options()("scenario", po::value<std::string>());

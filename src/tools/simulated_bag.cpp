@@ -17,14 +17,23 @@ namespace topics = ros_io::topics;
 /// Simulation time 0; any date is as good, a fixed one gives the same bytes every time.
 const ros::Time kStart(1000000000, 0);
 
+/// Connection header of a topic that rosbag play shall latch as its publisher did.
+template <class Message>
+boost::shared_ptr<ros::M_string> latchedHeader() {
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["type"] = ros::message_traits::datatype<Message>();
+  (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+  (*header)["message_definition"] = ros::message_traits::definition<Message>();
+  (*header)["latching"] = "1";
+  return header;
+}
+
 /// Writes in order of arrival what lies between pairs.
 class BagWriter {
  public:
   BagWriter(rosbag::Bag& bag, const sim::Simulation& simulation, const ros_io::SimulatedMessages& messages)
       : bag_(bag), simulation_(simulation), messages_(messages) {
-    boost::shared_ptr<ros::M_string> latched = boost::make_shared<ros::M_string>();
-    (*latched)["latching"] = "1";  // rosbag play then latches it, too
-    bag_.write(topics::kTfStatic, kStart, messages_.staticTransforms(), latched);
+    bag_.write(topics::kTfStatic, kStart, messages_.staticTransforms(), latchedHeader<tf2_msgs::TFMessage>());
   }
 
   void writeUntil(double time_s) {
@@ -32,11 +41,14 @@ class BagWriter {
     for (; next_imu_ < imu.size() && imu[next_imu_].time_s <= time_s; ++next_imu_) {
       const ros::Time arrival = messages_.stamp(imu[next_imu_].time_s);
       bag_.write(topics::kImu, arrival, messages_.imu(next_imu_));
-      if (messages_.hasAttitude()) bag_.write(topics::kImuQuaternion, arrival, messages_.imuQuaternion(next_imu_));
+      if (messages_.hasAttitude())
+        bag_.write(topics::kImuQuaternion, arrival, messages_.imuQuaternion(next_imu_));
     }
     const auto& waypoints = simulation_.trajectory().waypoints();
-    for (; next_waypoint_ < waypoints.size() && waypoints[next_waypoint_].time_s <= time_s; ++next_waypoint_) {
-      bag_.write(topics::kWaypoint, messages_.stamp(waypoints[next_waypoint_].time_s), messages_.waypoint(next_waypoint_));
+    for (; next_waypoint_ < waypoints.size() && waypoints[next_waypoint_].time_s <= time_s;
+         ++next_waypoint_) {
+      bag_.write(topics::kWaypoint, messages_.stamp(waypoints[next_waypoint_].time_s),
+                 messages_.waypoint(next_waypoint_));
     }
   }
 
@@ -66,7 +78,8 @@ class BagWriter {
 
 }  // namespace
 
-void writeSimulatedBag(const std::string& path, const sim::Simulation& simulation, const SimulatedBagOptions& options,
+void writeSimulatedBag(const std::string& path, const sim::Simulation& simulation,
+                       const SimulatedBagOptions& options,
                        const std::function<void(std::size_t, std::size_t)>& progress) try {
   rosbag::Bag bag(path, rosbag::bagmode::Write);
   bag.setCompression(options.compress ? rosbag::compression::BZ2 : rosbag::compression::Uncompressed);
@@ -74,15 +87,16 @@ void writeSimulatedBag(const std::string& path, const sim::Simulation& simulatio
   BagWriter writer(bag, simulation, messages);
 
   const auto& instants = simulation.pairs();
-  const auto pairs = static_cast<std::size_t>(
-      std::count_if(instants.begin(), instants.end(), [&](const auto& pair) { return pair.left_s <= options.duration_s; }));
+  const auto pairs = static_cast<std::size_t>(std::count_if(
+      instants.begin(), instants.end(), [&](const auto& pair) { return pair.left_s <= options.duration_s; }));
   const auto threads = static_cast<std::size_t>(options.threads);
   for (std::size_t first = 0; first < pairs; first += threads) {
     const std::size_t batch = std::min(threads, pairs - first);
     if (options.images) {
       std::vector<std::future<ros_io::PairMessages>> rendered;
       for (std::size_t i = 0; i < batch; ++i) {
-        rendered.push_back(std::async(std::launch::async, [&messages, first, i] { return messages.pair(first + i); }));
+        rendered.push_back(
+            std::async(std::launch::async, [&messages, first, i] { return messages.pair(first + i); }));
       }
       for (auto& pair : rendered) writer.write(pair.get());
     } else {

@@ -1,15 +1,19 @@
 #include "stereo_nav/vo/patch.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <opencv2/core/hal/intrin.hpp>
+
+#include "stereo_nav/vo/image_pyramid.h"
 
 namespace stereo_nav::vo {
 namespace {
 
 constexpr int kWeightBits = 14;
 constexpr int kFractionBits = 3;  ///< intensities in eighths: sums of 21 x 21 products stay below 2^31
+constexpr float kNoWarp = 0.02F;  ///< less than this changes a patch by a fraction of a pixel at its rim
 constexpr float kLeastGain = 0.25F;
 constexpr float kMostGain = 4.0F;
 
@@ -58,6 +62,37 @@ void sample(const cv::Mat& image, const cv::Point2f& corner, int rows, int strid
   }
 }
 
+/// The same around `centre`, along the axes `step` (image px per patch px): column c and row r of the patch at
+/// centre + step * (c - half, r - half). Parts outside of the image and its border repeat the border's edge.
+void sampleWarped(const cv::Mat& image, const cv::Point2f& centre, const Eigen::Matrix2f& step, int half, int rows,
+                  int stride, std::int16_t* out) {
+  const auto pitch = static_cast<std::ptrdiff_t>(image.step);
+  const float least = -static_cast<float>(ImagePyramid::kBorder_px);
+  const float most_x = static_cast<float>(image.cols + ImagePyramid::kBorder_px - 2);
+  const float most_y = static_cast<float>(image.rows + ImagePyramid::kBorder_px - 2);
+  constexpr float kOne = 1 << kFractionBits;
+  for (int r = 0; r < rows; ++r) {
+    const auto dy = static_cast<float>(r - half);
+    for (int c = 0; c < stride; ++c) {
+      const auto dx = static_cast<float>(c - half);
+      const float px = std::clamp(centre.x + step(0, 0) * dx + step(0, 1) * dy, least, most_x);
+      const float py = std::clamp(centre.y + step(1, 0) * dx + step(1, 1) * dy, least, most_y);
+      const float floor_x = std::floor(px);
+      const float floor_y = std::floor(py);
+      const float a = px - floor_x;
+      const float b = py - floor_y;
+      const uchar* above =
+          image.data + static_cast<std::ptrdiff_t>(floor_y) * pitch + static_cast<std::ptrdiff_t>(floor_x);
+      const uchar* below = above + pitch;
+      const auto p00 = static_cast<float>(above[0]);
+      const auto p10 = static_cast<float>(below[0]);
+      const float upper = p00 + a * (static_cast<float>(above[1]) - p00);
+      const float lower = p10 + a * (static_cast<float>(below[1]) - p10);
+      out[r * stride + c] = static_cast<std::int16_t>(kOne * (upper + b * (lower - upper)) + 0.5F);
+    }
+  }
+}
+
 /// Subtracts the mean over the window so that the integer sum is exactly zero; clears the padding.
 void removeMean(std::int16_t* grid, int window, int stride) {
   int sum = 0;
@@ -101,7 +136,7 @@ struct Patch::Sums {
 };
 
 std::optional<Patch> Patch::cut(const cv::Mat& image, const cv::Point2f& centre, int window,
-                                double min_texture) {
+                                double min_texture, const Eigen::Matrix2f& step) {
   const int half = window / 2;
   const int stride = (window + 7) / 8 * 8;
   if (!inside(image, centre)) return std::nullopt;
@@ -113,7 +148,11 @@ std::optional<Patch> Patch::cut(const cv::Mat& image, const cv::Point2f& centre,
   alignas(16) std::array<std::int16_t, (kMaxStride + 8) * (kMaxWindow + 2)> wide;
   const int wide_stride = stride + 8;
   // One more pixel on every side for the gradients.
-  sample(image, corner - cv::Point2f(1.0F, 1.0F), window + 2, wide_stride, wide.data());
+  if (step.isIdentity(kNoWarp)) {
+    sample(image, corner - cv::Point2f(1.0F, 1.0F), window + 2, wide_stride, wide.data());
+  } else {
+    sampleWarped(image, centre, step, half + 1, window + 2, wide_stride, wide.data());
+  }
   for (int r = 0; r < window; ++r) {
     const std::int16_t* row = wide.data() + (r + 1) * wide_stride + 1;
     for (int c = 0; c < stride; ++c) {
@@ -174,19 +213,26 @@ Patch::Sums Patch::correlate(const Grid& grid) const {
 }
 
 float Patch::correlation(const cv::Mat& image, int x, int y) const {
-  alignas(16) Grid grid;
+  cv::v_int32x4 product = cv::v_setzero_s32();
+  cv::v_int32x4 ones = cv::v_setzero_s32();
+  cv::v_int32x4 squares = cv::v_setzero_s32();
   const int half = window_ / 2;
   const auto step = static_cast<std::ptrdiff_t>(image.step);
-  for (int r = 0; r < window_; ++r) {
-    const uchar* row = image.data + (y - half + r) * step + x - half;
+  const uchar* row = image.data + (y - half) * step + x - half;
+  for (int r = 0; r < window_; ++r, row += step) {
     for (int c = 0; c < stride_; c += 8) {
-      cv::v_store_aligned(grid.data() + r * stride_ + c,
-                          cv::v_reinterpret_as_s16(cv::v_load_expand(row + c)) << kFractionBits);
+      const cv::v_int16x8 value = cv::v_reinterpret_as_s16(cv::v_load_expand(row + c));
+      const cv::v_int16x8 mask = cv::v_load_aligned(mask_.data() + c);
+      product = cv::v_dotprod(value, cv::v_load_aligned(intensity_.data() + r * stride_ + c), product);
+      ones = cv::v_dotprod(value, mask, ones);
+      squares = cv::v_dotprod(value, cv::v_mul_wrap(value, mask), squares);
     }
   }
-  const Sums sums = correlate(grid);
-  const float variance = sums.squares - sums.sum * sums.sum / static_cast<float>(window_ * window_);
-  return variance > 0.0F ? sums.by_intensity / (intensity_norm_ * std::sqrt(variance)) : 0.0F;
+  const auto sum = static_cast<float>(cv::v_reduce_sum(ones));
+  const float variance =
+      static_cast<float>(cv::v_reduce_sum(squares)) - sum * sum / static_cast<float>(window_ * window_);
+  if (variance <= 0.0F) return 0.0F;
+  return static_cast<float>(cv::v_reduce_sum(product)) / (intensity_norm_ * std::sqrt(variance));
 }
 
 std::optional<Patch::Match> Patch::align(const cv::Mat& image, const cv::Point2f& guess, int iterations,

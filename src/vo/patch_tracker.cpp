@@ -3,9 +3,16 @@
 #include <algorithm>
 
 namespace stereo_nav::vo {
+namespace {
+
+constexpr double kCoarseTexture = 0.25;  ///< only to keep the equations solvable
+
+}  // namespace
 
 void PatchTrackerParams::describe(ParameterVisitor& visitor) {
-  visitor.integer("window_px", window_px, {5, Patch::kMaxWindow}, "px", "side of the patch; odd");
+  visitor.integer("window_px", window_px, {5, Patch::kMaxWindow}, "px", "side of the patch on the finest level; odd");
+  visitor.integer("coarse_window_px", coarse_window_px, {5, Patch::kMaxWindow}, "px",
+                  "side of the patch on the coarse levels; odd");
   visitor.integer("iterations", iterations, {1, 100}, "", "most steps per level");
   visitor.real("min_step_px", min_step_px, {1e-4, 1.0}, "px", "a shorter step ends the search on a level");
   visitor.real("min_texture", min_texture, {0.0, 1000.0}, "grey levels^2/px^2",
@@ -16,14 +23,15 @@ void PatchTrackerParams::describe(ParameterVisitor& visitor) {
 
 std::optional<Patch::Match> PatchTracker::track(const ImagePyramid& from, const cv::Point2f& px,
                                                 const ImagePyramid& to, const cv::Point2f& guess,
-                                                int top_level) const {
+                                                int top_level, const Eigen::Matrix2f& step) const {
   cv::Point2f position = guess;
   const int top = std::min({top_level, from.levels() - 1, to.levels() - 1});
   for (int l = top; l >= 0; --l) {
     const float scale = 1.0F / static_cast<float>(1 << l);
     // The coarse levels of a weakly textured patch may still help: only level 0 asks for texture.
     const auto patch =
-        Patch::cut(from.level(l), px * scale, params_.window_px, l == 0 ? params_.min_texture : 0.25);
+        Patch::cut(from.level(l), px * scale, l == 0 ? params_.window_px : params_.coarse_window_px,
+                   l == 0 ? params_.min_texture : kCoarseTexture, step);
     const auto match =
         patch ? patch->align(to.level(l), position * scale, params_.iterations, params_.min_step_px)
               : std::nullopt;

@@ -41,9 +41,10 @@ SparseStereoMatcher::SparseStereoMatcher(const SparseStereoParams& params,
 
 std::optional<StereoMatch> SparseStereoMatcher::accept(const Eigen::Isometry3d& T_late_camera,
                                                        const Eigen::Vector2d& left_px,
-                                                       const Eigen::Vector2d& right_px) const {
+                                                       const Eigen::Vector2d& right_px,
+                                                       double slack_px) const {
   const Triangulation depth = triangulate(calibration_, T_late_camera, left_px, right_px);
-  if (!(std::abs(depth.epipolar_px) <= params_.max_epipolar_px)) return std::nullopt;
+  if (!(std::abs(depth.epipolar_px) <= params_.max_epipolar_px + slack_px)) return std::nullopt;
   const double least = params_.min_disparity_px / (calibration_.fx * calibration_.baseline_m);
   if (!(depth.inverse_depth >= least)) return std::nullopt;
   return StereoMatch{right_px, depth};
@@ -52,17 +53,19 @@ std::optional<StereoMatch> SparseStereoMatcher::accept(const Eigen::Isometry3d& 
 std::optional<StereoMatch> SparseStereoMatcher::refine(const ImagePyramid& left, const ImagePyramid& right,
                                                        const Eigen::Isometry3d& T_late_camera,
                                                        const Eigen::Vector2d& left_px,
-                                                       const Eigen::Vector2d& guess_px) const {
+                                                       const Eigen::Vector2d& guess_px,
+                                                       double slack_px) const {
   if (!guess_px.allFinite()) return std::nullopt;
-  const auto match = tracker_.track(left, toCv(left_px), right, toCv(guess_px), 1);
+  const auto match = tracker_.track(left, toCv(left_px), right, toCv(guess_px), slack_px > 0.0 ? 2 : 1);
   if (!match) return std::nullopt;
-  return accept(T_late_camera, left_px, toEigen(match->px));
+  return accept(T_late_camera, left_px, toEigen(match->px), slack_px);
 }
 
 std::optional<StereoMatch> SparseStereoMatcher::search(const ImagePyramid& left, const ImagePyramid& right,
                                                        const Eigen::Isometry3d& T_late_camera,
-                                                       const Eigen::Vector2d& left_px) const {
-  constexpr int kRowTolerance = 1;  // px of the coarse level
+                                                       const Eigen::Vector2d& left_px,
+                                                       double slack_px) const {
+  const auto row_tolerance = static_cast<int>((params_.max_epipolar_px + slack_px) / (1 << search_level_));
   if (right.levels() <= search_level_) return std::nullopt;
   const float scale = 1.0F / static_cast<float>(1 << search_level_);
   const auto patch =
@@ -80,7 +83,7 @@ std::optional<StereoMatch> SparseStereoMatcher::search(const ImagePyramid& left,
                                                 static_cast<double>(s) * inverse_depth_step)) *
                            scale;
     const auto x = static_cast<int>(std::lround(px.x));
-    for (int dy = -kRowTolerance; dy <= kRowTolerance; ++dy) {
+    for (int dy = -row_tolerance; dy <= row_tolerance; ++dy) {
       const auto y = static_cast<int>(std::lround(px.y)) + dy;
       if (!(px.x >= 2.0F) || x >= image.cols - 2 || y < 2 || y >= image.rows - 2) continue;
       const float value = patch->correlation(image, x, y);
@@ -98,7 +101,7 @@ std::optional<StereoMatch> SparseStereoMatcher::search(const ImagePyramid& left,
     if (peak && apart && likeness[s] > static_cast<float>(params_.uniqueness) * likeness[best])
       return std::nullopt;
   }
-  return refine(left, right, T_late_camera, left_px, toEigen(places[best] / scale));
+  return refine(left, right, T_late_camera, left_px, toEigen(places[best] / scale), slack_px);
 }
 
 }  // namespace stereo_nav::vo

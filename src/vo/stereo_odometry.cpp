@@ -13,6 +13,8 @@ namespace stereo_nav::vo {
 namespace {
 
 constexpr double kNegligibleSkew_s = 1e-5;
+/// m/s and rad/s: how fast the rig may move before anything is known of it.
+constexpr double kFirstTwistSigma = 1.0;
 
 void checkImages(const StereoFrame& frame, const StereoCalibration& calibration) {
   const cv::Size expected(calibration.width, calibration.height);
@@ -32,6 +34,13 @@ cv::Point2f toCv(const Eigen::Vector2d& px) {
 
 Eigen::Vector2d toEigen(const cv::Point2f& px) {
   return {static_cast<double>(px.x), static_cast<double>(px.y)};
+}
+
+/// How well the motion between the stamps is known before the right image is looked at.
+Vector6d lateSigma(const MotionPrior& prior) {
+  Vector6d sigma = prior.twist_sigma * std::abs(prior.skew_s);
+  if (prior.R_late_camera) sigma.tail<3>().setConstant(prior.rotation_sigma_rad);
+  return sigma;
 }
 
 /// The motion over `time_s` of a camera that moves by `after` in `after_s` and moved by the inverse of
@@ -123,7 +132,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
     startAt(images, last_view_.T_camera_world, result);
   } else if (!follow(images, result)) {
     ++failures_;
-    result.state = failures_ > params_.max_coasting_frames ? State::kLost : State::kCoasting;
+    result.state = State::kLost;
     twist_.reset();
     if (failures_ > params_.max_coasting_frames) startAt(images, last_view_.T_camera_world, result);
   }
@@ -139,15 +148,20 @@ void StereoOdometry::startAt(const Images& images, const Eigen::Isometry3d& T_ca
   StageClock clock(result.stage_times);
   landmarks_.clear();
   tracks_.clear();
-  window_.assign(1, StereoView{T_camera_world, Eigen::Isometry3d::Identity()});
+  window_.assign(1, WindowFrame());
+  WindowFrame& first = window_.back();
+  first.view.T_camera_world = T_camera_world;
+  first.skewed = images.skew_s() != 0.0;
+  first.late_sigma.setConstant(kFirstTwistSigma * std::abs(images.skew_s()));
   twist_.reset();
   last_left_time_s_ = images.left_time_s;
   last_skew_s_ = images.skew_s();
   last_interval_s_ = 0.0;
   if (const auto late = imu_.increment(images.left_time_s, images.right_time_s)) {
-    window_.back().T_late_camera.linear() = late->R_to_from;
+    first.view.T_late_camera.linear() = first.T_late_expected.linear() = late->R_to_from;
+    first.late_sigma.tail<3>().setConstant(late->sigma_rad);
   }
-  last_view_ = window_.back();
+  last_view_ = first.view;
   makeKeyframe(images, result);
   last_is_keyframe_ = true;
   if (landmarks_.size() < static_cast<std::size_t>(params_.min_inliers)) {
@@ -167,11 +181,20 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   const StereoView predicted = predict(images, prior);
   trackAll(images, predicted);
   clock.lap("track");
-  matchStereo(images, predicted);
+  StereoView guess = predicted;
+  if (images.skew_s() == 0.0) {
+    matchStereo(images, guess, 0.0);
+  } else {
+    guess = leftOnlyView(prior, predicted);
+    matchStereo(images, guess, epipolarSlack(lateSigma(prior)));
+    // Depth has to be freed from the motion between the stamps before it can be judged.
+    const PoseEstimate rough = estimateFrom(foundTracks(), prior, guess);
+    if (rough.converged) guess = rough.view;
+  }
   clock.lap("stereo");
-  const std::vector<std::size_t> selected = selectRigid(predicted, result);
+  const std::vector<std::size_t> selected = selectRigid(guess, result);
   clock.lap("select");
-  const PoseEstimate estimate = estimatePose(selected, prior, predicted);
+  const PoseEstimate estimate = estimatePose(selected, prior, guess);
   clock.lap("estimate");
   if (!estimate.converged || estimate.inliers < static_cast<std::size_t>(params_.min_inliers)) {
     std::ostringstream message;
@@ -184,11 +207,13 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   if (failures_ > 0) last_is_keyframe_ = false;
   failures_ = 0;
   const Eigen::Isometry3d T_world_last = last_view_.T_camera_world.inverse();
-  window_.push_back(estimate.view);
+  window_.emplace_back();
+  window_.back().view = estimate.view;
+  expectSkew(images, prior);
   smoothPreviousSkew(images);
   refineWindow();
   clock.lap("window");
-  const Eigen::Isometry3d T_camera_last = window_.back().T_camera_world * T_world_last;
+  const Eigen::Isometry3d T_camera_last = window_.back().view.T_camera_world * T_world_last;
   if (prior.R_camera_previous) {
     result.rotation_disagreement_rad =
         logRotation(*prior.R_camera_previous * T_camera_last.linear().transpose()).norm();
@@ -200,7 +225,7 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   result.T_previous_camera = T_camera_last.inverse();
   result.motion_covariance = estimate.covariance;
   result.reprojection_error_px = estimate.rms_px;
-  last_view_ = window_.back();
+  last_view_ = window_.back().view;
   last_left_time_s_ = images.left_time_s;
   last_skew_s_ = images.skew_s();
   last_is_keyframe_ = needsKeyframe();
@@ -252,11 +277,23 @@ Eigen::Vector2d StereoOdometry::predictedPixel(std::size_t i, const StereoView& 
   return p.z() < kNearestDepth_m ? tracks_[i].last_px : projectLeft(calibration_, p);
 }
 
-bool StereoOdometry::trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px,
-                              int top_level) {
+Eigen::Matrix2f StereoOdometry::patchStep(std::size_t i, const StereoView& view) const {
+  // The keyframe is the last of the window as long as the current frame has no pose.
+  const Eigen::Isometry3d T_keyframe_camera = window_.back().view.T_camera_world * view.T_camera_world.inverse();
+  const Eigen::Vector3d p_world = landmarks_[i].p_world();
+  const double zoom =
+      (view.T_camera_world * p_world).z() / (window_.back().view.T_camera_world * p_world).z();
+  if (!(zoom > 0.5 && zoom < 2.0)) return Eigen::Matrix2f::Identity();
+  const Eigen::Matrix3d& R = T_keyframe_camera.linear();
+  const double roll = std::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
+  return (zoom * Eigen::Rotation2Dd(roll).toRotationMatrix()).cast<float>();
+}
+
+bool StereoOdometry::trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level,
+                              const Eigen::Matrix2f& step) {
   Track& track = tracks_[i];
-  const auto match =
-      tracker_.track(keyframe_image_, toCv(track.keyframe_px), images.left, toCv(guess_px), top_level);
+  const auto match = tracker_.track(keyframe_image_, toCv(track.keyframe_px), images.left, toCv(guess_px),
+                                    top_level, step);
   track.found = match.has_value();
   if (match) track.seen.left_px = toEigen(match->px);
   return track.found;
@@ -271,12 +308,24 @@ void StereoOdometry::trackAll(const Images& images, const StereoView& predicted)
     track.inlier = false;
     track.found = false;
     if (!track.alive) continue;
-    if (twist_ && trackOne(images, i, predictedPixel(i, predicted), std::min(2, coarsest))) continue;
-    trackOne(images, i, track.last_px, coarsest);
+    if (twist_ && trackOne(images, i, predictedPixel(i, predicted), std::min(2, coarsest), patchStep(i, predicted)))
+      continue;
+    trackOne(images, i, track.last_px, coarsest, Eigen::Matrix2f::Identity());
   }
 }
 
-void StereoOdometry::matchStereo(const Images& images, const StereoView& view) {
+StereoView StereoOdometry::leftOnlyView(const MotionPrior& prior, const StereoView& predicted) {
+  for (Track& track : tracks_) track.seen.has_right = false;
+  const PoseEstimate estimate = estimateFrom(foundTracks(), prior, predicted);
+  return estimate.converged ? estimate.view : predicted;
+}
+
+double StereoOdometry::epipolarSlack(const Vector6d& late_sigma) const {
+  constexpr double kNearDepth_m = 3.0;
+  return calibration_.fx * (late_sigma.tail<3>().maxCoeff() + late_sigma.head<3>().maxCoeff() / kNearDepth_m);
+}
+
+void StereoOdometry::matchStereo(const Images& images, const StereoView& view, double slack_px) {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = tracks_[i];
     track.seen.has_right = false;
@@ -286,63 +335,69 @@ void StereoOdometry::matchStereo(const Images& images, const StereoView& view) {
     if (depth_m < kNearestDepth_m) continue;
     const Eigen::Vector2d guess =
         transferToRight(calibration_, view.T_late_camera, track.seen.left_px, 1.0 / depth_m);
-    const auto match = stereo_.refine(images.left, images.right, view.T_late_camera, track.seen.left_px, guess);
+    const auto match = stereo_.refine(images.left, images.right, view.T_late_camera, track.seen.left_px, guess,
+                                      slack_px);
     if (!match) continue;
     track.seen.right_px = match->right_px;
     track.seen.has_right = true;
   }
 }
 
-std::vector<std::size_t> StereoOdometry::selectRigid(const StereoView& predicted, FrameResult& result) const {
-  std::vector<std::size_t> selected;
+std::vector<std::size_t> StereoOdometry::foundTracks() const {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (tracks_[i].found) found.push_back(i);
+  }
+  return found;
+}
+
+std::vector<std::size_t> StereoOdometry::selectRigid(const StereoView& view, FrameResult& result) const {
+  const std::vector<std::size_t> found = foundTracks();
   std::vector<std::size_t> with_depth;
   std::vector<RigidPoint> points;
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const Track& track = tracks_[i];
-    if (!track.found) continue;
-    ++result.features_tracked;
-    selected.push_back(i);
-    if (!track.seen.has_right) continue;
-    const Triangulation depth =
-        triangulate(calibration_, predicted.T_late_camera, track.seen.left_px, track.seen.right_px);
+  for (const std::size_t i : found) {
+    const StereoObservation& seen = tracks_[i].seen;
+    if (!seen.has_right) continue;
+    const Triangulation depth = triangulate(calibration_, view.T_late_camera, seen.left_px, seen.right_px);
     if (depth.inverse_depth <= 0.0) continue;
     with_depth.push_back(i);
     points.push_back({last_view_.T_camera_world * landmarks_[i].p_world(),
-                      leftRay(calibration_, track.seen.left_px) / depth.inverse_depth});
+                      leftRay(calibration_, seen.left_px) / depth.inverse_depth});
   }
+  const CliqueResult clique =
+      largestClique(buildNoisyRigidityGraph(params_.rigidity, calibration_, points),
+                    static_cast<std::size_t>(params_.clique_budget));
+  result.features_tracked = static_cast<std::uint32_t>(found.size());
   result.features_with_depth = static_cast<std::uint32_t>(with_depth.size());
-  const CliqueResult clique = largestClique(
-      buildNoisyRigidityGraph(params_.rigidity, calibration_, points), static_cast<std::size_t>(params_.clique_budget));
   result.clique_size = static_cast<std::uint32_t>(clique.members.size());
-  if (clique.members.size() < static_cast<std::size_t>(params_.min_inliers)) return selected;
+  if (clique.members.size() < static_cast<std::size_t>(params_.min_inliers)) return found;
   std::vector<std::size_t> rigid;
   for (const std::size_t member : clique.members) rigid.push_back(with_depth[member]);
   return rigid;
 }
 
-PoseEstimate StereoOdometry::estimatePose(const std::vector<std::size_t>& selected, const MotionPrior& prior,
-                                          const StereoView& predicted) {
+PoseEstimate StereoOdometry::estimateFrom(const std::vector<std::size_t>& tracks, const MotionPrior& prior,
+                                          const StereoView& guess) const {
   std::vector<MapObservation> observations;
-  for (const std::size_t i : selected) observations.push_back({landmarks_[i].p_world(), tracks_[i].seen});
-  const PoseEstimate rigid = estimator_.estimate(observations, prior, predicted);
+  for (const std::size_t i : tracks) observations.push_back({landmarks_[i].p_world(), tracks_[i].seen});
+  return estimator_.estimate(observations, prior, guess);
+}
+
+PoseEstimate StereoOdometry::estimatePose(const std::vector<std::size_t>& selected, const MotionPrior& prior,
+                                          const StereoView& guess) {
+  const PoseEstimate rigid = estimateFrom(selected, prior, guess);
   if (!rigid.converged) return rigid;
   // Once more with all that agree with that motion, also those without a depth of their own in this frame.
-  std::vector<std::size_t> found;
-  observations.clear();
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (!tracks_[i].found) continue;
-    found.push_back(i);
-    observations.push_back({landmarks_[i].p_world(), tracks_[i].seen});
-  }
-  PoseEstimate estimate = estimator_.estimate(observations, prior, rigid.view);
+  const std::vector<std::size_t> found = foundTracks();
+  const PoseEstimate estimate = estimateFrom(found, prior, rigid.view);
   for (std::size_t k = 0; k < found.size(); ++k) tracks_[found[k]].inlier = estimate.inlier[k];
   return estimate;
 }
 
 void StereoOdometry::updateTwist(const Images& images, const MotionPrior& prior) {
-  const Eigen::Isometry3d T_camera_last = window_.back().T_camera_world * last_view_.T_camera_world.inverse();
+  const Eigen::Isometry3d T_camera_last = window_.back().view.T_camera_world * last_view_.T_camera_world.inverse();
   if (images.skew_s() != 0.0) {
-    twist_ = Vector6d(logMotion(window_.back().T_late_camera) / images.skew_s());
+    twist_ = Vector6d(logMotion(window_.back().view.T_late_camera) / images.skew_s());
   } else {
     twist_ = extrapolatedTwist(T_camera_last, prior.interval_s, std::nullopt);
   }
@@ -350,17 +405,36 @@ void StereoOdometry::updateTwist(const Images& images, const MotionPrior& prior)
   last_interval_s_ = prior.interval_s;
 }
 
+void StereoOdometry::expectSkew(const Images& images, const MotionPrior& prior) {
+  WindowFrame& frame = window_.back();
+  frame.skewed = images.skew_s() != 0.0;
+  if (!frame.skewed) return;
+  const Vector6d twist = extrapolatedTwist(frame.view.T_camera_world * prior.T_previous_world.inverse(),
+                                           prior.interval_s, prior.previous_twist);
+  frame.T_late_expected = expMotion(twist * images.skew_s());
+  frame.late_sigma = lateSigma(prior);
+  if (prior.R_late_camera) frame.T_late_expected.linear() = *prior.R_late_camera;
+}
+
 void StereoOdometry::smoothPreviousSkew(const Images& images) {
   if (last_skew_s_ == 0.0 || !last_is_keyframe_ || window_.size() < 2) return;
-  StereoView& previous = window_[window_.size() - 2];
+  WindowFrame& previous = window_[window_.size() - 2];
   const double after_s = images.left_time_s - last_left_time_s_;
-  const Eigen::Isometry3d T_next = window_.back().T_camera_world * previous.T_camera_world.inverse();
-  previous.T_late_camera =
+  const Eigen::Isometry3d T_next = window_.back().view.T_camera_world * previous.view.T_camera_world.inverse();
+  const Eigen::Matrix3d R_expected = previous.T_late_expected.linear();
+  const Eigen::Vector3d rotation_sigma = previous.late_sigma.tail<3>();
+  previous.T_late_expected =
       last_interval_s_ > 0.0
           ? interpolatedMotion(T_next, after_s, T_last_before_, last_interval_s_, last_skew_s_)
           : expMotion(logMotion(T_next) * last_skew_s_ / after_s);
-  const auto late = imu_.increment(last_left_time_s_, last_left_time_s_ + last_skew_s_);
-  if (late) previous.T_late_camera.linear() = late->R_to_from;
+  // Midway between two known poses, under white acceleration.
+  const double spread = std::sqrt(after_s * after_s * after_s / 48.0);
+  previous.late_sigma.head<3>().setConstant(std::sqrt(params_.acceleration_density) * spread);
+  previous.late_sigma.tail<3>().setConstant(std::sqrt(params_.angular_acceleration_density) * spread);
+  if (imu_.increment(last_left_time_s_, last_left_time_s_ + last_skew_s_)) {
+    previous.T_late_expected.linear() = R_expected;
+    previous.late_sigma.tail<3>() = rotation_sigma;
+  }
 }
 
 void StereoOdometry::refineWindow() {
@@ -404,13 +478,15 @@ void StereoOdometry::replenish(const Images& images, FrameResult& result) {
   for (const Track& track : tracks_) {
     if (track.alive) occupied.push_back(toCv(track.seen.left_px));
   }
-  const StereoView& view = window_.back();
+  const StereoView& view = window_.back().view;
   const Eigen::Isometry3d T_world_camera = view.T_camera_world.inverse();
+  // At the very start nothing is known of the motion between the stamps.
+  const double slack_px = window_.size() == 1 && window_.back().skewed ? epipolarSlack(window_.back().late_sigma) : 0.0;
   const std::vector<cv::Point2f> corners = detector_.detect(images.left.level(0), occupied);
   result.features_detected = static_cast<std::uint32_t>(corners.size());
   for (const cv::Point2f& corner : corners) {
     const Eigen::Vector2d px = toEigen(corner);
-    const auto match = stereo_.search(images.left, images.right, view.T_late_camera, px);
+    const auto match = stereo_.search(images.left, images.right, view.T_late_camera, px, slack_px);
     if (!match) continue;
     Landmark landmark;
     landmark.id = next_id_++;

@@ -35,7 +35,8 @@ struct SessionOutput {
   bool processed = false;                     ///< false: there is no odometry of this frame; `errors` say why
   std::map<std::string, std::string> errors;  ///< by kind
   std::map<std::string, std::string> warnings;  ///< by kind; the odometry runs, but not as it should
-  std::vector<std::string> announcements;       ///< what the user must know of: restarts, changes
+  std::vector<std::string> notes;               ///< what happened as it should
+  std::vector<std::string> announcements;       ///< what the user should know of: restarts, changes
   vo::StereoFrame images;
   vo::FrameResult result;
   BaseEstimate base;

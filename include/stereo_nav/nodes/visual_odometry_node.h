@@ -55,6 +55,7 @@ class VisualOdometryNode {
   void work();
   void processFrame(const Inbox::Work& work);
   double watchedSeconds();
+  std::string newDrops();
 
   ros::NodeHandle handle_;
   ros::NodeHandle private_handle_;
@@ -71,6 +72,7 @@ class VisualOdometryNode {
   double watched_s_ = 0.0;
   ros::Time last_ros_time_;
   SteadyTime last_steady_time_;
+  unsigned int ticks_ = 0;
   std::uint64_t lefts_received_ = 0;
   std::uint64_t imu_refused_ = 0;
   std::uint64_t dropped_reported_ = 0;

@@ -15,8 +15,8 @@
 
 namespace stereo_nav::ros_io {
 
-/// What stereo_capture publishes of one pair by default, and the truth at its left image: images, infos and odometry
-/// carry the left image's exposure time, the true instants are in `sync`.
+/// What stereo_capture publishes of one pair by default, and the truth at its left image: images, infos and
+/// odometry carry the left image's exposure time, the true instants are in `sync`.
 struct PairMessages {
   sensor_msgs::Image left, right;
   sensor_msgs::CameraInfo left_info, right_info;
@@ -25,8 +25,8 @@ struct PairMessages {
   double available_s;  ///< when both images are complete, simulation time
 };
 
-/// The sensors of a simulation as messages. `start` is the stamp of simulation time 0. Const methods may be called
-/// from several threads; `simulation` must outlive it.
+/// The sensors of a simulation as messages. `start` is the stamp of simulation time 0. Const methods may be
+/// called from several threads; `simulation` must outlive it.
 class SimulatedMessages {
  public:
   SimulatedMessages(const sim::Simulation& simulation, const ros::Time& start);
@@ -41,8 +41,8 @@ class SimulatedMessages {
   bool hasAttitude() const;
   /// The robot passes way-point `index`; stamp is the moment, point the way-point in `odom`.
   geometry_msgs::PointStamped waypoint(std::size_t index) const;
-  /// Where cameras and IMU sit on `base_link`. The right optical frame is there for the eye only: both images carry
-  /// the left one.
+  /// Where cameras and IMU sit on `base_link`. The right optical frame is there for the eye only: both images
+  /// carry the left one.
   tf2_msgs::TFMessage staticTransforms() const;
 
   /// Pose of `base_link` in `odom` and its velocities.

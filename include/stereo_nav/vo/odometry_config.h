@@ -6,15 +6,17 @@
 
 #include "stereo_nav/params/parameters.h"
 #include "stereo_nav/vo/odometry.h"
+#include "stereo_nav/vo/stereo_odometry.h"
 #include "stereo_nav/vo/thesis_odometry.h"
 
 namespace stereo_nav::vo {
 
-enum class Method { kThesis };
+enum class Method { kStereo, kThesis };
 
 /// All parameters of a run; one section per composition, `method` says which one works.
 struct OdometryConfig {
-  Method method = Method::kThesis;
+  Method method = Method::kStereo;
+  StereoParams stereo;
   ThesisParams thesis;
 
   void describe(ParameterVisitor& visitor);

@@ -19,8 +19,9 @@ class Patch {
   /// The `window` x `window` px around `centre`; `window` is odd. Nothing if the centre
   /// leaves the image or the patch has too little texture: the smaller eigenvalue of its gradient moments, per px, must
   /// be at least `min_texture` (grey levels per px, squared).
+  /// `step` is the way in the image per px of the patch: the patch as it is expected in the other image.
   static std::optional<Patch> cut(const cv::Mat& image, const cv::Point2f& centre, int window,
-                                  double min_texture);
+                                  double min_texture, const Eigen::Matrix2f& step = Eigen::Matrix2f::Identity());
 
   struct Match {
     cv::Point2f px;

@@ -9,7 +9,8 @@
 namespace stereo_nav::vo {
 
 struct PatchTrackerParams {
-  int window_px = 15;
+  int window_px = 11;
+  int coarse_window_px = 15;
   int iterations = 10;
   double min_step_px = 0.02;
   double min_texture = 4.0;
@@ -24,9 +25,11 @@ class PatchTracker {
   explicit PatchTracker(const PatchTrackerParams& params) : params_(params) {}
 
   /// `guess` is where `px` of `from` is expected in `to`; `top_level` is the coarsest level of the search.
-  /// Coarse levels only move the guess; level 0 decides. Nothing without enough texture or likeness.
+  /// `step` is how many px of `from`
+  /// a px of `to` is expected to span, as an axis each. Coarse levels only move the guess; level 0 decides. Nothing without enough texture or likeness.
   std::optional<Patch::Match> track(const ImagePyramid& from, const cv::Point2f& px, const ImagePyramid& to,
-                                    const cv::Point2f& guess, int top_level) const;
+                                    const cv::Point2f& guess, int top_level,
+                                    const Eigen::Matrix2f& step = Eigen::Matrix2f::Identity()) const;
 
   const PatchTrackerParams& params() const { return params_; }
 

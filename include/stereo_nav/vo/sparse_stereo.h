@@ -26,7 +26,8 @@ struct StereoMatch {
 };
 
 /// Finds corners of the left image in the right one, to a fraction of a pixel and whatever the gain and
-/// offset between the two cameras. The search line bends with the motion between the two stamps.
+/// offset between the two cameras. The search line bends with the motion between the two stamps;
+/// `slack_px` is how far off it may be because that motion is not known well, 0 for synchronous pairs.
 class SparseStereoMatcher {
  public:
   SparseStereoMatcher(const SparseStereoParams& params, const StereoCalibration& calibration);
@@ -34,17 +35,17 @@ class SparseStereoMatcher {
   /// From a predicted position in the right image.
   std::optional<StereoMatch> refine(const ImagePyramid& left, const ImagePyramid& right,
                                     const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
-                                    const Eigen::Vector2d& guess_px) const;
+                                    const Eigen::Vector2d& guess_px, double slack_px) const;
 
   /// Without a prediction: the whole range of disparities on a coarse level, then from there. Nothing if a
   /// second place looks nearly as alike.
   std::optional<StereoMatch> search(const ImagePyramid& left, const ImagePyramid& right,
                                     const Eigen::Isometry3d& T_late_camera,
-                                    const Eigen::Vector2d& left_px) const;
+                                    const Eigen::Vector2d& left_px, double slack_px) const;
 
  private:
   std::optional<StereoMatch> accept(const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
-                                    const Eigen::Vector2d& right_px) const;
+                                    const Eigen::Vector2d& right_px, double slack_px) const;
 
   SparseStereoParams params_;
   StereoCalibration calibration_;

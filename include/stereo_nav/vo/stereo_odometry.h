@@ -78,15 +78,24 @@ class StereoOdometry : public Odometry {
 
   void startAt(const Images& images, const Eigen::Isometry3d& T_camera_world, FrameResult& result);
   bool follow(const Images& images, FrameResult& result);
+  /// Pose, and the motion between skewed stamps, as far as the left image alone tells.
+  StereoView leftOnlyView(const MotionPrior& prior, const StereoView& predicted);
   MotionPrior motionPrior(const Images& images) const;
   StereoView predict(const Images& images, const MotionPrior& prior) const;
   void trackAll(const Images& images, const StereoView& predicted);
-  bool trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level);
-  void matchStereo(const Images& images, const StereoView& view);
-  std::vector<std::size_t> selectRigid(const StereoView& predicted, FrameResult& result) const;
+  bool trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level,
+                const Eigen::Matrix2f& step);
+  Eigen::Matrix2f patchStep(std::size_t i, const StereoView& view) const;
+  void matchStereo(const Images& images, const StereoView& view, double slack_px);
+  double epipolarSlack(const Vector6d& late_sigma) const;
+  std::vector<std::size_t> foundTracks() const;
+  PoseEstimate estimateFrom(const std::vector<std::size_t>& tracks, const MotionPrior& prior,
+                            const StereoView& guess) const;
+  std::vector<std::size_t> selectRigid(const StereoView& view, FrameResult& result) const;
   PoseEstimate estimatePose(const std::vector<std::size_t>& selected, const MotionPrior& prior,
-                            const StereoView& predicted);
+                            const StereoView& guess);
   void updateTwist(const Images& images, const MotionPrior& prior);
+  void expectSkew(const Images& images, const MotionPrior& prior);
   void smoothPreviousSkew(const Images& images);
   void refineWindow();
   bool needsKeyframe() const;
@@ -107,7 +116,7 @@ class StereoOdometry : public Odometry {
   ImuRotation imu_;
 
   // The map. The world is the left camera of the first frame.
-  std::vector<StereoView> window_;   ///< keyframes, oldest first, and the current frame at the end
+  std::vector<WindowFrame> window_;  ///< keyframes, oldest first, and the current frame at the end
   std::vector<Landmark> landmarks_;
   std::vector<Track> tracks_;        ///< of the landmark with the same index
   ImagePyramid keyframe_image_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/StdVector>
+#include <cstdint>
 #include <vector>
 
 #include "stereo_nav/params/parameter_visitor.h"
@@ -11,9 +11,17 @@ namespace stereo_nav::vo {
 struct WindowOptimizerParams {
   int iterations = 2;
   double loss_px = 1.0;
-  double max_error_px = 2.0;
 
   void describe(ParameterVisitor& visitor);
+};
+
+/// A frame of the window. Of a skewed one the motion between the two stamps is a variable of its own, tied to
+/// what the frames around it make one expect.
+struct WindowFrame {
+  StereoView view;
+  bool skewed = false;
+  Eigen::Isometry3d T_late_expected = Eigen::Isometry3d::Identity();
+  Vector6d late_sigma = Vector6d::Ones();  ///< of the left perturbation of T_late_camera: m, rad
 };
 
 /// What one frame of the window saw of a landmark.
@@ -45,34 +53,34 @@ class WindowOptimizer {
       : params_(params), calibration_(calibration) {}
 
   /// Moves the poses of `window` (all but the first) and the landmarks. Returns whether it could.
-  bool optimise(std::vector<StereoView>& window, std::vector<Landmark>& landmarks);
-
-  /// Covariance of the last frame's left perturbation (m, rad) relative to the first, for noise of 1 px.
-  const Matrix6d& lastCovariance() const { return last_covariance_; }
+  bool optimise(std::vector<WindowFrame>& window, std::vector<Landmark>& landmarks);
 
  private:
   struct Elimination {
     std::size_t landmark;
-    std::size_t first_view;  ///< into by_view_
-    std::size_t views;
+    std::size_t first_block;  ///< into blocks_
+    std::size_t blocks;
     Eigen::Matrix3d inverse_information;
     Eigen::Vector3d gradient;
   };
-  struct ViewBlock {
-    int frame;
-    Eigen::Matrix<double, 6, 3> cross;  ///< between the frame's pose and the landmark
+  /// Between six camera variables and a landmark.
+  struct CrossBlock {
+    Eigen::Index at;  ///< first of the camera variables
+    Eigen::Matrix<double, 6, 3> information;
   };
-  bool linearise(const std::vector<StereoView>& window, const std::vector<Landmark>& landmarks);
-  void addLandmark(const std::vector<StereoView>& window, const Landmark& landmark, std::size_t index);
+  bool linearise(const std::vector<WindowFrame>& window, const std::vector<Landmark>& landmarks);
+  void addLandmark(const std::vector<WindowFrame>& window, const Landmark& landmark, std::size_t index);
+  void addSkewPriors(const std::vector<WindowFrame>& window);
   void eliminate(const Elimination& elimination);
+  void apply(const Eigen::VectorXd& step, std::vector<WindowFrame>& window, std::vector<Landmark>& landmarks) const;
 
   WindowOptimizerParams params_;
   StereoCalibration calibration_;
   Eigen::MatrixXd information_;  ///< reduced camera system, lower blocks
   Eigen::VectorXd gradient_;
   std::vector<Elimination> eliminations_;
-  std::vector<ViewBlock> blocks_;
-  Matrix6d last_covariance_ = Matrix6d::Zero();
+  std::vector<CrossBlock> blocks_;
+  std::vector<Eigen::Index> late_at_;  ///< first variable of T_late_camera per frame; negative where there is none
 };
 
 }  // namespace stereo_nav::vo

@@ -24,11 +24,9 @@ class ImageFiles : public FrameReader {
 
   cv::Mat read(std::size_t index) override {
     const std::string& path = paths_.at(index);
+    if (!std::filesystem::exists(path)) throw InputError(path + ": does not exist; is the folder complete?");
     cv::Mat image = cv::imread(path, cv::IMREAD_UNCHANGED);
-    if (image.empty()) {
-      throw InputError(path + (std::filesystem::exists(path) ? ": is no image or is damaged; copy it again"
-                                                             : ": does not exist; is the folder complete?"));
-    }
+    if (image.empty()) throw InputError(path + ": is no image or is damaged; copy it again");
     const int type = image.type();
     if (type == CV_8UC1 || type == CV_8UC3 || type == CV_16UC1) return image;
     throw InputError(path + ": images of OpenCV type " + cv::typeToString(type) +

@@ -2,7 +2,6 @@
 
 #include <cv_bridge/cv_bridge.h>
 #include <nav_msgs/Odometry.h>
-#include <rosbag/bag.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2_eigen/tf2_eigen.h>
@@ -12,7 +11,7 @@
 #include <limits>
 
 #include "stereo_nav/StereoSync.h"
-#include "stereo_nav/eval/atomic_file.h"
+#include "stereo_nav/ros_io/bag_file.h"
 #include "stereo_nav/ros_io/conversions.h"
 #include "stereo_nav/ros_io/pairing.h"
 #include "stereo_nav/ros_io/topics.h"
@@ -66,11 +65,12 @@ std::string encodingOf(const cv::Mat& image) {
 /// Puts messages into the bag; everything it needs to know of one kind of message is in one function.
 class BagWriter {
  public:
-  BagWriter(Sequence& sequence, const BagOptions& options, std::vector<Pair> pairs)
+  BagWriter(Sequence& sequence, const BagOptions& options, std::vector<Pair> pairs, const std::string& path)
       : sequence_(sequence),
         options_(options),
         pairs_(std::move(pairs)),
-        right_offset_(options.right_stamp_offset_s) {
+        right_offset_(options.right_stamp_offset_s),
+        bag_(path) {
     const Eigen::Isometry3d T_camera_body =
         sequence.T_body_camera.value_or(Eigen::Isometry3d::Identity()).inverse();
     const bool at_imu = options.base_frame == BaseFrame::kImu;
@@ -79,18 +79,17 @@ class BagWriter {
     has_imu_ = options.imu && !sequence.imu.readings.empty();
   }
 
-  void write(const std::string& path, const std::function<void(std::size_t, std::size_t)>& progress) {
+  void write(const std::function<void(std::size_t, std::size_t)>& progress) {
     std::vector<Event> events = collectEvents();
     std::stable_sort(events.begin(), events.end(),
                      [](const Event& a, const Event& b) { return a.time < b.time; });
-    bag_.open(path, rosbag::bagmode::Write);
     writeTransforms(events.front().time);
     std::size_t done = 0;
     for (const Event& event : events) {
       (this->*event.write)(event.index);
       if (event.write == &BagWriter::writeSync) progress(++done, pairs_.size());
     }
-    bag_.close();
+    bag_.commit();
   }
 
  private:
@@ -203,14 +202,7 @@ class BagWriter {
     tf2_msgs::TFMessage message;
     message.transforms.push_back(fromBase(stamp, frames::kLeftOptical, T_base_camera_));
     if (has_imu_) message.transforms.push_back(fromBase(stamp, frames::kImu, T_base_imu_));
-    // As a latching publisher would have recorded it, so that rosbag play hands it to whoever comes later.
-    const auto connection = boost::make_shared<ros::M_string>();
-    (*connection)["latching"] = "1";
-    (*connection)["topic"] = topics::kTfStatic;
-    (*connection)["type"] = ros::message_traits::datatype(message);
-    (*connection)["md5sum"] = ros::message_traits::md5sum(message);
-    (*connection)["message_definition"] = ros::message_traits::definition(message);
-    bag_.write(topics::kTfStatic, stamp, message, connection);
+    bag_.writeLatched(topics::kTfStatic, stamp, message);
   }
 
   Sequence& sequence_;
@@ -220,7 +212,7 @@ class BagWriter {
   Eigen::Isometry3d T_base_camera_;
   Eigen::Isometry3d T_base_imu_;
   bool has_imu_ = false;
-  rosbag::Bag bag_;
+  ros_io::BagFile bag_;
 };
 
 }  // namespace
@@ -228,10 +220,8 @@ class BagWriter {
 BagSummary writeBag(Sequence& sequence, const BagOptions& options, const std::string& path,
                     const std::function<void(std::size_t, std::size_t)>& progress) {
   BagSummary summary;
-  BagWriter writer(sequence, options, choosePairs(sequence, options, summary));
-  eval::AtomicFile file(path);
-  writer.write(file.temporaryPath(), progress);
-  file.commit();
+  std::vector<Pair> pairs = choosePairs(sequence, options, summary);
+  BagWriter(sequence, options, std::move(pairs), path).write(progress);
   return summary;
 }
 
