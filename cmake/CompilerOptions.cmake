@@ -16,7 +16,7 @@ if(STEREO_NAV_WERROR)
 endif()
 if(STEREO_NAV_SANITIZE)
   # The assertions of Eigen and of the standard library are part of what such a build is for.
-  add_compile_options(-fsanitize=${STEREO_NAV_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1 -O2
+  add_compile_options(-fsanitize=${STEREO_NAV_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1 -O1
     -UNDEBUG -D_GLIBCXX_ASSERTIONS)
   add_link_options(-fsanitize=${STEREO_NAV_SANITIZE})
 endif()

@@ -75,9 +75,9 @@ for path in sys.argv[1:]:
     ast.parse(open(path).read(), path)'
 )
 
-# Nothing that only exists on the machine where it was written.
+# Nothing that only exists on the machine where it was written. (A path after a variable, "$dir"/root/x, is none.)
 path_check() (
-  ! git grep -nIE '(^|[^A-Za-z0-9._~-])/(work|home|root|Users)/[A-Za-z0-9._-]+' -- . ':!LICENSE'
+  ! git grep -nIP '(?<![\w.~}-])(?<![\w}]")/(work|home|root|Users)/[\w.-]+' -- . ':!LICENSE'
 )
 
 link_check() (

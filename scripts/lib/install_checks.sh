@@ -50,6 +50,14 @@ programs_complete() {
   return $status
 }
 
+# The nodelets' description is found, and the library it names is where it says.
+nodelets_found() {
+  local description
+  description=$(as_user rospack plugins --attrib=plugin nodelet | awk '$1 == "stereo_nav" {print $2}')
+  [[ $description == "$prefix/share/stereo_nav/"* ]] &&
+    [[ -f $prefix/$(sed -n 's/.*<library path="\([^"]*\)".*/\1.so/p' "$description") ]]
+}
+
 external_package_runs() {
   as_user cmake -S "$STEREO_NAV_ROOT/test/external_package" -B "$work_dir/external" \
     -DPYTHON_EXECUTABLE=/usr/bin/python3 &&
@@ -61,5 +69,6 @@ external_package_runs() {
 check into_prefix install_package
 check package_found package_found
 check programs_complete programs_complete
+check nodelets_found nodelets_found
 check external_package external_package_runs
 [[ $failures -eq 0 ]]

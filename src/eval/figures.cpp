@@ -81,22 +81,45 @@ std::string pathPlot(const Evaluation& evaluation, const std::string& columns) {
   return plot;
 }
 
+/// Ranges of x and y around the whole path that fill the picture at equal scales, however narrow the path is.
+std::string equalRanges(const Evaluation& evaluation) {
+  Eigen::AlignedBox2d box;
+  for (const auto& frame : evaluation.frames) {
+    box.extend(Eigen::Vector2d(frame.position_m.head<2>()));
+    if (frame.ground_truth_m) box.extend(Eigen::Vector2d(frame.ground_truth_m->head<2>()));
+  }
+  constexpr double kWidthOverHeight = 2.0;
+  constexpr double kMargin = 1.1;
+  const Eigen::Vector2d half = 0.5 * kMargin * box.sizes().cwiseMax(0.1);
+  const double half_x = std::max(half.x(), half.y() * kWidthOverHeight);
+  const double half_y = half_x / kWidthOverHeight;
+  const Eigen::Vector2d centre = box.center();
+  return "set xrange [" + toText(centre.x() - half_x) + ":" + toText(centre.x() + half_x) +
+         "]\nset yrange [" + toText(centre.y() - half_y) + ":" + toText(centre.y() + half_y) + "]\n";
+}
+
+std::string timeAxis(const Evaluation& evaluation) {
+  return "set xlabel 'time [s]'\nset xrange [0:" + toText(std::max(evaluation.frames.back().time_s, 0.1)) +
+         "]\n";
+}
+
 Figure topView(const Evaluation& evaluation) {
   const std::string start =
       ", $estimate every ::0::0 using 2:3 with points pt 6 ps 1.2 lw 2 lc rgb '#20262b' "
       "title 'start'\n";
   return {"path_top",
-          "Path from above: base_link in odom, ground truth laid onto the first pose. Equal scales.",
-          header("path_top", 560) + pathData(evaluation) +
-              "set size ratio -1\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
-              "set xlabel 'x forward [m]'\nset ylabel 'y left [m]'\n" +
+          "Path in the x-y plane of odom (from above, where z of base_link points up): base_link, ground "
+          "truth laid onto the first pose. Equal scales.",
+          header("path_top", 560) + pathData(evaluation) + equalRanges(evaluation) +
+              "set size ratio -1\n"
+              "set xlabel 'x [m]'\nset ylabel 'y [m]'\n" +
               pathPlot(evaluation, "2:3") + start};
 }
 
 Figure heightView(const Evaluation& evaluation) {
   return {"path_height", "Height over time: z of base_link in odom, ground truth laid onto the first pose.",
-          header("path_height", 280) + pathData(evaluation) +
-              "set xlabel 'time [s]'\nset ylabel 'z up [m]'\n" + pathPlot(evaluation, "1:4") + "\n"};
+          header("path_height", 280) + pathData(evaluation) + timeAxis(evaluation) + "set ylabel 'z [m]'\n" +
+              pathPlot(evaluation, "1:4") + "\n"};
 }
 
 Figure errorsOverTime(const Evaluation& evaluation) {
@@ -107,8 +130,8 @@ Figure errorsOverTime(const Evaluation& evaluation) {
       "error",
       "Error over time. Position: of the left camera, after SE(3) alignment without scale (what the absolute "
       "error sums up). Rotation: first poses laid together, so drift grows from zero.",
-      header("error", 440) + dataBlock("errors", evaluation.frames, errors) +
-          "set multiplot layout 2,1\nset yrange [0:*]\nset lmargin 10\nunset key\n"
+      header("error", 440) + dataBlock("errors", evaluation.frames, errors) + timeAxis(evaluation) +
+          "unset xlabel\nset multiplot layout 2,1\nset yrange [0:*]\nset lmargin 10\nunset key\n"
           "set ylabel 'position [m]'\nplot $errors using 1:2 with lines ls 1\n"
           "set xlabel 'time [s]'\nset ylabel 'rotation [deg]'\nplot $errors using 1:3 with lines ls 5\n"
           "unset multiplot\n"};
@@ -126,8 +149,8 @@ Figure featuresOverTime(const Evaluation& evaluation) {
     plot += ", $counts using 1:4 with points ls 3 title 'frame lost'";
   }
   return {"features", "Features and inliers of each frame.",
-          header("features", 300) + dataBlock("counts", evaluation.frames, counts) +
-              "set yrange [0:*]\nset xlabel 'time [s]'\nset ylabel 'count'\n" + plot + "\n"};
+          header("features", 300) + dataBlock("counts", evaluation.frames, counts) + timeAxis(evaluation) +
+              "set yrange [0:*]\nset ylabel 'count'\n" + plot + "\n"};
 }
 
 std::string escaped(const std::string& text) {
@@ -165,9 +188,9 @@ Figure stagesOverTime(const Evaluation& evaluation, const std::vector<FrameRecor
   }
   return {"stages", "Time per stage, one on top of the other, with their medians; line: the whole frame.",
           header("stages", 380) + dataBlock("times", rows) +
-              "set key outside right center vertical noenhanced\nset yrange [0:*]\nset style fill solid\n"
-              "set xlabel 'time [s]'\nset ylabel 'time per frame [ms]'\nplot " +
-              plot + "$times using 1:2 with lines lc rgb '#20262b' lw 1 title 'whole frame'\n"};
+              "set key outside right center vertical noenhanced\nset yrange [0:*]\nset style fill solid\n" +
+              timeAxis(evaluation) + "set ylabel 'time per frame [ms]'\nplot " + plot +
+              "$times using 1:2 with lines lc rgb '#20262b' lw 1 title 'whole frame'\n"};
 }
 
 }  // namespace

@@ -140,7 +140,10 @@ std::optional<std::string> writeReport(const std::string& directory, const Evalu
     }
   }
   const EvaluationSummary& summary = evaluation.summary;
-  const std::string note = warning ? "<p class=\"warning\">" + escaped(*warning) + "</p>\n" : "";
+  std::string note = warning ? "<p class=\"warning\">" + escaped(*warning) + "</p>\n" : "";
+  if (input.ground_truth.empty()) {
+    note += "<p class=\"warning\">No ground truth: the errors are unknown, the path is the estimate's.</p>\n";
+  }
   writeFileAtomically(directory + "/report.html",
                       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>Odometry: " +

@@ -81,8 +81,8 @@ void BaseOdometry::start(const Eigen::Isometry3d& T_odom_base, const vo::Matrix6
 void BaseOdometry::setPose(const Eigen::Isometry3d& T_odom_base, const vo::Matrix6d& pose_covariance) {
   T_odom_start_ = T_odom_base * T_start_base_.inverse();
   // Never exactly zero: filters invert it.
-  const vo::Matrix6d at_least = pose_covariance + diagonal(params_.min_translation_sigma_m,
-                                                           params_.min_rotation_sigma_rad);
+  const vo::Matrix6d at_least =
+      pose_covariance + diagonal(params_.min_translation_sigma_m, params_.min_rotation_sigma_rad);
   covariance_base_ = turned(T_odom_base.linear().transpose(), at_least);
   estimate_.T_odom_base = T_odom_base;
   estimate_.pose_covariance = at_least;
@@ -98,7 +98,8 @@ const BaseEstimate& BaseOdometry::update(const vo::FrameResult& result, double t
   return estimate_;
 }
 
-void BaseOdometry::addMotion(const vo::FrameResult& result, double interval_s, bool measured_from_previous_frame) {
+void BaseOdometry::addMotion(const vo::FrameResult& result, double interval_s,
+                             bool measured_from_previous_frame) {
   const vo::Matrix6d covariance = motionCovariance(result, interval_s);
   const Eigen::Isometry3d motion = T_base_camera_ * result.T_previous_camera * T_base_camera_.inverse();
   const vo::Matrix6d carry = adjoint(motion.inverse());

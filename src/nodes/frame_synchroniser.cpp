@@ -40,7 +40,9 @@ void FrameSynchroniser::addDisparity(const stereo_msgs::DisparityImageConstPtr& 
   disparities_.add(disparity->header.stamp, disparity);
 }
 
-void FrameSynchroniser::addSync(const StereoSyncConstPtr& sync) { syncs_.add(sync->header.stamp, sync); }
+void FrameSynchroniser::addSync(const StereoSyncConstPtr& sync) {
+  syncs_.add(sync->header.stamp, sync);
+}
 
 std::optional<FrameMessages> FrameSynchroniser::take() {
   auto& waiting = lefts_.items();
@@ -65,7 +67,8 @@ std::optional<FrameMessages> FrameSynchroniser::take() {
   return std::nullopt;
 }
 
-FrameSynchroniser::Match FrameSynchroniser::matchRight(const ros::Time& left_stamp, FrameMessages& frame) const {
+FrameSynchroniser::Match FrameSynchroniser::matchRight(const ros::Time& left_stamp,
+                                                       FrameMessages& frame) const {
   // A capture node that stopped publishing camera/sync must not stop the odometry.
   const bool sync_alive =
       syncs_.received() > 0 && std::abs((left_stamp - syncs_.newest()).toSec()) < 2.0 * kClockJump_s;
@@ -117,7 +120,8 @@ bool FrameSynchroniser::matchDisparity(const ros::Time& left_stamp, FrameMessage
 void FrameSynchroniser::forgetUpTo(const FrameMessages& frame) {
   rights_.discardUpTo(frame.right->header.stamp);
   syncs_.discardUpTo(frame.left_stamp);
-  if (params_.disparity == FrameSynchroniserParams::Disparity::kMatched) disparities_.discardUpTo(frame.left_stamp);
+  if (params_.disparity == FrameSynchroniserParams::Disparity::kMatched)
+    disparities_.discardUpTo(frame.left_stamp);
 }
 
 }  // namespace stereo_nav::nodes

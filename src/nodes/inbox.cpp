@@ -14,8 +14,9 @@ constexpr std::size_t kMaxImuSamples = 4000;
 void InboxParams::describe(ParameterVisitor& visitor) {
   visitor.integer("capacity", capacity, {1, 100}, "frames",
                   "complete frames that wait for the odometry; the oldest gives way");
-  visitor.real("imu_wait_s", imu_wait_s, {0.0, 1.0}, "s",
-               "how long a frame waits for IMU messages up to its stamp, counted from its left image's arrival");
+  visitor.real(
+      "imu_wait_s", imu_wait_s, {0.0, 1.0}, "s",
+      "how long a frame waits for IMU messages up to its stamp, counted from its left image's arrival");
 }
 
 void Inbox::push(FrameMessages frame) {

@@ -19,7 +19,9 @@ void InputMonitor::received(std::size_t input, const ros::Time& stamp, double no
   state.last_s = now_s;
 }
 
-bool InputMonitor::isSilent(const State& state, double now_s) const { return now_s - state.last_s > timeout_s_; }
+bool InputMonitor::isSilent(const State& state, double now_s) const {
+  return now_s - state.last_s > timeout_s_;
+}
 
 std::map<std::string, std::string> InputMonitor::silentInputs(double now_s) const {
   std::map<std::string, std::string> texts;
@@ -30,12 +32,13 @@ std::map<std::string, std::string> InputMonitor::silentInputs(double now_s) cons
     message << "no message on " << state.input.topic << " for " << std::fixed << std::setprecision(0)
             << now_s - state.last_s << " s";
     if (state.count > 0) {
-      message << " (" << state.count << " before, last stamp " << std::setprecision(3) << state.last_stamp.toSec()
-              << ")";
+      message << " (" << state.count << " before, last stamp " << std::setprecision(3)
+              << state.last_stamp.toSec() << ")";
     }
     const unsigned int publishers = state.input.publishers();
     if (publishers == 0) {
-      message << "; no node publishes it: not started, stopped, or under another name (compare `rostopic list`, remap)";
+      message << "; no node publishes it: not started, stopped, or under another name (compare `rostopic "
+                 "list`, remap)";
     } else {
       message << "; " << publishers << " connected publisher(s) send nothing: they wait for their own input";
     }
@@ -66,11 +69,14 @@ std::string InputMonitor::unsynchronised(double now_s) const {
   }
   constexpr double kOtherClock_s = 1.0;
   if (std::abs(widest_s) > kOtherClock_s) {
-    message << ". Stamps this far apart come from different clocks or recordings: run all drivers on one host's clock "
+    message << ". Stamps this far apart come from different clocks or recordings: run all drivers on one "
+               "host's clock "
                "(chrony between hosts), and do not mix a bag with live topics";
   } else {
-    message << ". The disparity must carry the left image's exact stamp (disparity nodelet without approximate_sync) "
-               "and a right image must lie within synchronisation/max_skew_s of it: use stereo_capture, which stamps "
+    message << ". The disparity must carry the left image's exact stamp (disparity nodelet without "
+               "approximate_sync) "
+               "and a right image must lie within synchronisation/max_skew_s of it: use stereo_capture, "
+               "which stamps "
                "a pair alike, or raise max_skew_s for free-running cameras";
   }
   return message.str();

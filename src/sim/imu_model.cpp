@@ -26,9 +26,12 @@ Eigen::Quaterniond attitude(const Eigen::Vector3d& yaw_pitch_roll) {
          Eigen::AngleAxisd(yaw_pitch_roll.z(), Eigen::Vector3d::UnitX());
 }
 
-double quantise(double value, double step) { return step > 0.0 ? step * std::round(value / step) : value; }
+double quantise(double value, double step) {
+  return step > 0.0 ? step * std::round(value / step) : value;
+}
 
-vo::ImuSample thesisSample(const ImuParams& params, const BaseState& state, double time_s, RandomStream& random) {
+vo::ImuSample thesisSample(const ImuParams& params, const BaseState& state, double time_s,
+                           RandomStream& random) {
   Eigen::Vector3d angles_deg = yawPitchRoll(state.T_world_base.linear()) / kRadPerDeg;
   angles_deg += params.angle_noise_deg * normalVector(random);
   angles_deg.x() += params.power_on_yaw_deg + params.yaw_drift_dps * time_s;
@@ -46,7 +49,8 @@ vo::ImuSample rawSample(const ImuParams& params, const BaseState& state, const E
                         const Eigen::Vector3d& accel_bias, RandomStream& random) {
   const double root_rate = std::sqrt(params.rate_hz);  // white noise of a density, sampled
   vo::ImuSample sample;
-  const Eigen::Vector3d gyro_error = gyro_bias_dps + params.gyro_noise_dps_rthz * root_rate * normalVector(random);
+  const Eigen::Vector3d gyro_error =
+      gyro_bias_dps + params.gyro_noise_dps_rthz * root_rate * normalVector(random);
   sample.angular_velocity = state.angular_velocity_base + kRadPerDeg * gyro_error;
   sample.linear_acceleration =
       specificForce(state) + accel_bias + params.accel_noise_mps2_rthz * root_rate * normalVector(random);
@@ -63,8 +67,8 @@ vo::ImuSample perfectSample(const BaseState& state) {
 
 }  // namespace
 
-std::vector<vo::ImuSample> simulateImu(const ImuParams& params, const Trajectory& trajectory, double duration_s,
-                                       std::uint64_t seed) {
+std::vector<vo::ImuSample> simulateImu(const ImuParams& params, const Trajectory& trajectory,
+                                       double duration_s, std::uint64_t seed) {
   std::vector<vo::ImuSample> samples;
   if (params.kind == ImuKind::kNone) return samples;
   RandomStream random(streamKey(seed, Stream::kImu));
@@ -97,19 +101,30 @@ std::vector<vo::ImuSample> simulateImu(const ImuParams& params, const Trajectory
 
 void ImuParams::describe(ParameterVisitor& visitor) {
   visitEnum(visitor, "kind", kind,
-            {{"none", ImuKind::kNone}, {"perfect", ImuKind::kPerfect}, {"thesis", ImuKind::kThesis}, {"raw", ImuKind::kRaw}},
-            "perfect: attitude and rates without error; thesis: three angles, yaw drifting; raw: gyro and accelerometer");
+            {{"none", ImuKind::kNone},
+             {"perfect", ImuKind::kPerfect},
+             {"thesis", ImuKind::kThesis},
+             {"raw", ImuKind::kRaw}},
+            "perfect: attitude and rates without error; thesis: three angles, yaw drifting; raw: gyro and "
+            "accelerometer");
   visitor.real("rate_hz", rate_hz, {1.0, 2000.0}, "Hz", "samples per second");
   visitor.real("latency_ms", latency_ms, {0.0, 200.0}, "ms", "stamps are this late; not for a perfect one");
   visitor.real("yaw_drift_dps", yaw_drift_dps, {-10.0, 10.0}, "deg/s", "thesis: drift of the yaw angle");
-  visitor.real("power_on_yaw_deg", power_on_yaw_deg, {-180.0, 180.0}, "deg", "thesis: yaw shown at the start");
-  visitor.real("angle_noise_deg", angle_noise_deg, {0.0, 10.0}, "deg", "thesis: standard deviation of each angle");
+  visitor.real("power_on_yaw_deg", power_on_yaw_deg, {-180.0, 180.0}, "deg",
+               "thesis: yaw shown at the start");
+  visitor.real("angle_noise_deg", angle_noise_deg, {0.0, 10.0}, "deg",
+               "thesis: standard deviation of each angle");
   visitor.real("quantisation_deg", quantisation_deg, {0.0, 10.0}, "deg", "thesis: step of the angles");
-  visitor.real("gyro_bias_dps", gyro_bias_dps, {0.0, 10.0}, "deg/s", "raw: standard deviation of the bias of each axis");
-  visitor.real("gyro_noise_dps_rthz", gyro_noise_dps_rthz, {0.0, 1.0}, "deg/s/sqrt(Hz)", "raw: noise density");
-  visitor.real("gyro_walk_dps2_rthz", gyro_walk_dps2_rthz, {0.0, 1.0}, "deg/s^2/sqrt(Hz)", "raw: random walk of the bias");
-  visitor.real("accel_bias_mps2", accel_bias_mps2, {0.0, 5.0}, "m/s^2", "raw: standard deviation of the bias of each axis");
-  visitor.real("accel_noise_mps2_rthz", accel_noise_mps2_rthz, {0.0, 1.0}, "m/s^2/sqrt(Hz)", "raw: noise density");
+  visitor.real("gyro_bias_dps", gyro_bias_dps, {0.0, 10.0}, "deg/s",
+               "raw: standard deviation of the bias of each axis");
+  visitor.real("gyro_noise_dps_rthz", gyro_noise_dps_rthz, {0.0, 1.0}, "deg/s/sqrt(Hz)",
+               "raw: noise density");
+  visitor.real("gyro_walk_dps2_rthz", gyro_walk_dps2_rthz, {0.0, 1.0}, "deg/s^2/sqrt(Hz)",
+               "raw: random walk of the bias");
+  visitor.real("accel_bias_mps2", accel_bias_mps2, {0.0, 5.0}, "m/s^2",
+               "raw: standard deviation of the bias of each axis");
+  visitor.real("accel_noise_mps2_rthz", accel_noise_mps2_rthz, {0.0, 1.0}, "m/s^2/sqrt(Hz)",
+               "raw: noise density");
 }
 
 }  // namespace stereo_nav::sim

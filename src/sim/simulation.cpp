@@ -32,7 +32,8 @@ Simulation::Simulation(const Scenario& scenario, const StereoCalibrationPair& ca
       left_(makeCamera(Side::kLeft, scaled(calibration.left, scenario.rig.image_scale))),
       right_(makeCamera(Side::kRight, scaled(calibration.right, scenario.rig.image_scale))) {}
 
-std::unique_ptr<Simulation::Camera> Simulation::makeCamera(Side side, const CameraCalibration& calibration) const {
+std::unique_ptr<Simulation::Camera> Simulation::makeCamera(Side side,
+                                                           const CameraCalibration& calibration) const {
   Eigen::Isometry3d T_rectified_raw = Eigen::Isometry3d::Identity();
   T_rectified_raw.linear() = calibration.R;
   T_rectified_raw.translation().x() = calibration.offsetX_m();
@@ -74,7 +75,8 @@ cv::Mat Simulation::image(Side side, std::size_t pair) const {
   if (blocked(side, time_s)) {  // a hand on the lens: a little light comes through
     light = cv::Mat(cam.calibration.height, cam.calibration.width, CV_32FC1, cv::Scalar(8.0));
   } else {
-    const Shutter shutter{time_s, 1e-3 * scenario_.sensor.exposure_ms, 1e-3 * scenario_.sensor.rolling_shutter_ms};
+    const Shutter shutter{time_s, 1e-3 * scenario_.sensor.exposure_ms,
+                          1e-3 * scenario_.sensor.rolling_shutter_ms};
     light = cam.renderer.render([&](double t) { return cameraPose(side, t); }, shutter);
   }
   light *= lightLevel(time_s);

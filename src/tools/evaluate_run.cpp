@@ -90,7 +90,8 @@ class Run {
     record.time_s = pair.left_time_s;
     if (result.state != vo::State::kLost)
       record.T_odom_base = vo::basePose(T_base_camera_, result.T_start_camera);
-    record.features = result.features_detected;
+    // The thesis detects a new set in every frame, the default only where tracks are missing.
+    record.features = std::max(result.features_detected, result.features_tracked);
     record.inliers = result.inliers;
     return record;
   }

@@ -29,7 +29,8 @@ std::optional<int> matchBothSides(const cv::Mat& left, const cv::Mat& right, con
   const cv::Rect search = cv::Rect(patch.x - reach, patch.y - kSearchRows, patch.width + 2 * reach,
                                    patch.height + 2 * kSearchRows) &
                           image;
-  if ((patch & image) != patch || search.height < patch.height || search.width < patch.width) return std::nullopt;
+  if ((patch & image) != patch || search.height < patch.height || search.width < patch.width)
+    return std::nullopt;
 
   cv::Mat score;
   cv::matchTemplate(right(search), left(patch), score, cv::TM_CCOEFF_NORMED);

@@ -7,7 +7,8 @@ namespace stereo_nav::vo {
 void ImuRotationParams::describe(ParameterVisitor& visitor) {
   visitor.real("initial_bias_sigma_rad_s", initial_bias_sigma_rad_s, {1e-6, 10.0}, "rad/s",
                "uncertainty of the rates' bias at the start");
-  visitor.real("bias_walk_rad_s2", bias_walk_rad_s2, {0.0, 1.0}, "rad/s/sqrt(s)", "how fast the bias wanders");
+  visitor.real("bias_walk_rad_s2", bias_walk_rad_s2, {0.0, 1.0}, "rad/s/sqrt(s)",
+               "how fast the bias wanders");
   visitor.real("angle_sigma_rad", angle_sigma_rad, {1e-6, 1.0}, "rad",
                "uncertainty of a rotation between two frames without bias");
   visitor.real("angle_sigma_share", angle_sigma_share, {0.0, 1.0}, "",

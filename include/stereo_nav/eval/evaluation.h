@@ -15,7 +15,7 @@ namespace stereo_nav::eval {
 struct FrameRecord {
   double time_s = 0.0;                           ///< stamp of the left image
   std::optional<Eigen::Isometry3d> T_odom_base;  ///< absent: the frame is lost
-  unsigned features = 0;
+  unsigned features = 0;                         ///< that the frame had to work with
   unsigned inliers = 0;
   FrameTiming timing;
 };

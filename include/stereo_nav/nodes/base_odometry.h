@@ -19,8 +19,8 @@ struct UncertaintyParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Pose and velocity of the base as nav_msgs/Odometry wants them; covariances in the order x y z, then rotation about
-/// x y z.
+/// Pose and velocity of the base as nav_msgs/Odometry wants them; covariances in the order x y z, then
+/// rotation about x y z.
 struct BaseEstimate {
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
   vo::Matrix6d pose_covariance = vo::Matrix6d::Zero();  ///< axes of odom
@@ -28,12 +28,14 @@ struct BaseEstimate {
   vo::Matrix6d twist_covariance = vo::Matrix6d::Zero();
 };
 
-/// Carries the camera's motion over to the base: T_odom_base = T_odom_start T_base_camera T_start_camera T_camera_base.
+/// Carries the camera's motion over to the base: T_odom_base = T_odom_start T_base_camera T_start_camera
+/// T_camera_base.
 ///
-/// First model of the uncertainty: each measured motion has the covariance that the odometry gives it, at least the
-/// floor of the parameters; a frame without a motion means an unknown velocity of `lost_speed`, `lost_turn_rate` (one
-/// sigma) since the frame before. The pose's covariance is the sum over all motions, carried along by the adjoint
-/// (Sola et al., "A micro Lie theory", eq. 54); the twist's is that of the last motion by its duration squared.
+/// First model of the uncertainty: each measured motion has the covariance that the odometry gives it, at
+/// least the floor of the parameters; a frame without a motion means an unknown velocity of `lost_speed`,
+/// `lost_turn_rate` (one sigma) since the frame before. The pose's covariance is the sum over all motions,
+/// carried along by the adjoint (Sola et al., "A micro Lie theory", eq. 54); the twist's is that of the last
+/// motion by its duration squared.
 class BaseOdometry {
  public:
   BaseOdometry(const UncertaintyParams& params, const Eigen::Isometry3d& T_base_camera);
@@ -61,8 +63,8 @@ class BaseOdometry {
   BaseEstimate estimate_;
 };
 
-/// Constant velocity (linear, angular; axes of the moving frame) that makes `motion` in one unit of time: the logarithm
-/// of SE(3).
+/// Constant velocity (linear, angular; axes of the moving frame) that makes `motion` in one unit of time: the
+/// logarithm of SE(3).
 Vector6d logarithm(const Eigen::Isometry3d& motion);
 
 /// Takes a small motion expressed in frame b (translation, rotation) into frame a.

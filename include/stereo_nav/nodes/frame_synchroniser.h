@@ -36,10 +36,11 @@ struct FrameSynchroniserParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Puts stereo frames together. What shares the left image's stamp (disparity, camera/sync) is matched exactly. The
-/// right image is the one that camera/sync names; without camera/sync it is the one with the nearest stamp, taken as
-/// soon as no later one can be nearer: with equal stamps, or a skew below half the right camera's period, at once.
-/// (message_filters' ApproximateTime lets a pair out only when the next one arrives: a whole frame of latency.)
+/// Puts stereo frames together. What shares the left image's stamp (disparity, camera/sync) is matched
+/// exactly. The right image is the one that camera/sync names; without camera/sync it is the one with the
+/// nearest stamp, taken as soon as no later one can be nearer: with equal stamps, or a skew below half the
+/// right camera's period, at once. (message_filters' ApproximateTime lets a pair out only when the next one
+/// arrives: a whole frame of latency.)
 ///
 /// Drop rule: a complete frame overtakes older incomplete ones (topics keep their order, so those will not be
 /// completed), and of more than `queue_size` waiting left images the oldest gives way. All are counted.

@@ -21,9 +21,9 @@ struct InboxParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Between the callbacks, which must return quickly, and the thread that runs the odometry. A frame is handed out
-/// when an IMU sample at or after both its stamps has come (so that the attitude at the image can be interpolated),
-/// or when it has waited `imu_wait_s` for one. Thread-safe.
+/// Between the callbacks, which must return quickly, and the thread that runs the odometry. A frame is handed
+/// out when an IMU sample at or after both its stamps has come (so that the attitude at the image can be
+/// interpolated), or when it has waited `imu_wait_s` for one. Thread-safe.
 ///
 /// Drop rule: of more than `capacity` frames the oldest gives way; counted.
 class Inbox {
@@ -37,7 +37,8 @@ class Inbox {
   explicit Inbox(const InboxParams& params) : params_(params) {}
 
   void push(FrameMessages frame);
-  /// A sample much older than the newest starts a new epoch (a bag that loops); a little older, it is dropped.
+  /// A sample much older than the newest starts a new epoch (a bag that loops); a little older, it is
+  /// dropped.
   void addImu(const vo::ImuSample& sample);
 
   /// The next frame, if it is ready at `now`.

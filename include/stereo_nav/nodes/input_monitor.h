@@ -11,19 +11,20 @@
 
 namespace stereo_nav::nodes {
 
-/// Watches the topics of a node and explains, after a few seconds, why nothing comes out of it: which topic is silent
-/// or which stamps do not fit, the likely cause and the remedy. Times are seconds on a clock that only runs forward
-/// and stands still while a replay is paused.
+/// Watches the topics of a node and explains, after a few seconds, why nothing comes out of it: which topic
+/// is silent or which stamps do not fit, the likely cause and the remedy. Times are seconds on a clock that
+/// only runs forward and stands still while a replay is paused.
 class InputMonitor {
  public:
   struct Input {
-    std::string topic;                       ///< resolved name
-    std::string remedy;                      ///< what to look at if it is silent
-    bool stamped = true;                     ///< its stamps take part in the synchronisation
+    std::string topic;                         ///< resolved name
+    std::string remedy;                        ///< what to look at if it is silent
+    bool stamped = true;                       ///< its stamps take part in the synchronisation
     std::function<unsigned int()> publishers;  ///< how many nodes publish it now
   };
 
-  InputMonitor(double timeout_s, double now_s) : timeout_s_(timeout_s), last_frame_s_(now_s), start_s_(now_s) {}
+  InputMonitor(double timeout_s, double now_s)
+      : timeout_s_(timeout_s), last_frame_s_(now_s), start_s_(now_s) {}
 
   std::size_t add(Input input);
   void received(std::size_t input, const ros::Time& stamp, double now_s);

@@ -5,8 +5,8 @@
 
 namespace stereo_nav::nodes {
 
-/// What is wrong at the moment, each thing under a key of its own. Decides when to say it in the log: when it is new,
-/// and again every `repeat_s` while it lasts. Diagnostics show the list as it is.
+/// What is wrong at the moment, each thing under a key of its own. Decides when to say it in the log: when it
+/// is new, and again every `repeat_s` while it lasts. Diagnostics show the list as it is.
 class ProblemList {
  public:
   struct Problem {

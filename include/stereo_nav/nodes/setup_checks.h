@@ -12,9 +12,9 @@ namespace stereo_nav::nodes {
 /// tf wants frame ids without the leading slash that old recordings have.
 std::string withoutSlash(const std::string& frame_id);
 
-/// Geometry of the pair from what the cameras say of themselves. Throws ros_io::InputError when images and camera_infos
-/// do not belong together: another frame id (image_geometry aborts the process on that), none, another size, or a
-/// camera_info that is no stereo calibration.
+/// Geometry of the pair from what the cameras say of themselves. Throws ros_io::InputError when images and
+/// camera_infos do not belong together: another frame id (image_geometry aborts the process on that), none,
+/// another size, or a camera_info that is no stereo calibration.
 vo::StereoCalibration checkedCalibration(const sensor_msgs::Image& left, const sensor_msgs::Image& right,
                                          const sensor_msgs::CameraInfo& left_info,
                                          const sensor_msgs::CameraInfo& right_info);
@@ -24,7 +24,7 @@ bool sameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo&
 
 /// What to say while a transform is missing: its name, tf's own words, and the command that publishes it.
 /// `sensor_is_camera` picks the example's rotation: optical axes or the body's.
-std::string missingTransform(const std::string& base_frame, const std::string& sensor_frame, bool sensor_is_camera,
-                             const std::string& tf_error);
+std::string missingTransform(const std::string& base_frame, const std::string& sensor_frame,
+                             bool sensor_is_camera, const std::string& tf_error);
 
 }  // namespace stereo_nav::nodes

@@ -9,8 +9,8 @@
 
 namespace stereo_nav::nodes {
 
-/// A stamp this much older than the newest of its topic is no late message but a clock that jumped back: a bag that
-/// starts again, or a corrected clock.
+/// A stamp this much older than the newest of its topic is no late message but a clock that jumped back: a
+/// bag that starts again, or a corrected clock.
 constexpr double kClockJump_s = 0.5;
 
 /// The last messages of one topic in order of their stamps. Bounded; the oldest gives way and is counted.

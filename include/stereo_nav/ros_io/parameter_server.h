@@ -19,8 +19,8 @@ YAML::Node toYaml(const XmlRpc::XmlRpcValue& value);
 /// nothing.
 YAML::Node parameterTree(const ros::NodeHandle& handle, const std::set<std::string>& except = {});
 
-/// Fills `params` from the handle's namespace by the one mechanism for all parameters. Names in `except` belong to
-/// others (libraries that share a private namespace). Throws ParameterError.
+/// Fills `params` from the handle's namespace by the one mechanism for all parameters. Names in `except`
+/// belong to others (libraries that share a private namespace). Throws ParameterError.
 template <class Params>
 void readParameters(const ros::NodeHandle& handle, const std::set<std::string>& except, Params& params) {
   stereo_nav::readParameters(parameterTree(handle, except), handle.getNamespace(), params);

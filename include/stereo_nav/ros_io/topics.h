@@ -13,6 +13,8 @@ constexpr const char* kImu = "imu/data";
 /// The thesis' topic: orientation without header.
 constexpr const char* kImuQuaternion = "imu_quat";
 constexpr const char* kGroundTruth = "ground_truth/odom";
+/// Simulated recordings: the moments at which the robot passes the way-points of its path.
+constexpr const char* kWaypoint = "ground_truth/waypoint";
 constexpr const char* kTfStatic = "tf_static";
 
 }  // namespace stereo_nav::ros_io::topics

@@ -35,10 +35,10 @@ struct ImuParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// All samples of the module, from 0 to `duration_s`, as a driver would stamp them: a sample's `time_s` is when
-/// its values have arrived, `latency_ms` after they were true. `imu_link` has the axes of `base_link`.
+/// All samples of the module, from 0 to `duration_s`, as a driver would stamp them: a sample's `time_s` is
+/// when its values have arrived, `latency_ms` after they were true. `imu_link` has the axes of `base_link`.
 /// Deterministic in `seed`.
-std::vector<vo::ImuSample> simulateImu(const ImuParams& params, const Trajectory& trajectory, double duration_s,
-                                       std::uint64_t seed);
+std::vector<vo::ImuSample> simulateImu(const ImuParams& params, const Trajectory& trajectory,
+                                       double duration_s, std::uint64_t seed);
 
 }  // namespace stereo_nav::sim

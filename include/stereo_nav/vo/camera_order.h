@@ -7,11 +7,11 @@
 
 namespace stereo_nav::vo {
 
-/// Notices that the left and right images were swapped (cables, device indices). A rectified pair in the right order
-/// has no negative disparity; the disparity map cannot tell, since it searches positive ones only and then finds
-/// chance matches. So now and then a few distinct corners of the left image are looked for on both sides of their row
-/// in the right image, at reduced size, a few rows up and down (a swapped pair is rectified with the wrong lenses),
-/// and the signs are counted. Motion is not needed.
+/// Notices that the left and right images were swapped (cables, device indices). A rectified pair in the
+/// right order has no negative disparity; the disparity map cannot tell, since it searches positive ones only
+/// and then finds chance matches. So now and then a few distinct corners of the left image are looked for on
+/// both sides of their row in the right image, at reduced size, a few rows up and down (a swapped pair is
+/// rectified with the wrong lenses), and the signs are counted. Motion is not needed.
 class CameraOrderCheck {
  public:
   enum class Verdict { kUnknown, kInOrder, kSwapped };
@@ -22,8 +22,8 @@ class CameraOrderCheck {
   void observe(const cv::Mat& left, const cv::Mat& right);
   void reset() { votes_.clear(); }
 
-  /// From the last few observations; unknown until enough corners were found again (texture, depth below about 100
-  /// baselines).
+  /// From the last few observations; unknown until enough corners were found again (texture, depth below
+  /// about 100 baselines).
   Verdict verdict() const;
 
  private:

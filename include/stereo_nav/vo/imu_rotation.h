@@ -33,8 +33,8 @@ class ImuRotation {
   /// Nothing where the samples do not cover the interval.
   std::optional<Increment> increment(double from_s, double to_s) const;
 
-  /// What vision found for the same interval; `sigma_rad` per axis. Differences beyond 5 sigma are no bias and
-  /// are ignored.
+  /// What vision found for the same interval; `sigma_rad` per axis. Differences beyond 5 sigma are no bias
+  /// and are ignored.
   void learn(double from_s, double to_s, const Eigen::Matrix3d& R_to_from, double sigma_rad);
 
   const Eigen::Vector3d& bias() const { return bias_; }  ///< rad/s, camera frame

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "unit/capture/fake_kernel.h"
+#include "unit/capture/stereo_rig.h"
 
 namespace stereo_nav::capture {
 namespace {
@@ -32,7 +33,7 @@ class StereoCameraTest : public testing::Test {
   }
 
   ~StereoCameraTest() override {
-    if (stereo_) stereo_->stop();
+    rig_.reset();
     EXPECT_EQ(kernel_.openDescriptors(), 0);
     EXPECT_EQ(kernel_.mappings(), 0);
   }
@@ -55,70 +56,36 @@ class StereoCameraTest : public testing::Test {
     return camera;
   }
 
-  void start(const StereoConfig& config) {
-    stereo_ = std::make_unique<StereoCamera>(
-        config, kernel_, kernel_.finder(), [this](StereoImages images) { receive(std::move(images)); },
-        [this](Severity, const std::string& text) {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          log_ += text + "\n";
-        });
-    stereo_->start();
+  void start(const StereoConfig& config, milliseconds receiver_delay = {}) {
+    rig_->start(config, receiver_delay);
   }
-
-  void receive(StereoImages images) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    pairs_.push_back(std::move(images));
+  bool morePairsCome() { return rig_->pairsCome(10); }
+  bool rightIsRetrying() {
+    return comesTrue([this] { return rig_->right().state == CameraState::Retrying; });
   }
-
-  std::size_t pairCount() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return pairs_.size();
-  }
-
-  std::string log() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return log_;
-  }
-
-  /// Waits generously; false when it does not come true.
   template <class Condition>
   bool comesTrue(Condition&& condition) {
-    const auto deadline = std::chrono::steady_clock::now() + milliseconds(20'000);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline) return false;
-      std::this_thread::sleep_for(milliseconds(2));
-    }
-    return true;
-  }
-
-  bool morePairsCome() {
-    const std::size_t before = pairCount();
-    return comesTrue([&] { return pairCount() >= before + 10; });
+    return StereoRig::comesTrue(condition);
   }
 
   FakeKernel kernel_;
-  std::mutex mutex_;
-  std::vector<StereoImages> pairs_;
-  std::string log_;
-  std::unique_ptr<StereoCamera> stereo_;
+  std::unique_ptr<StereoRig> rig_ = std::make_unique<StereoRig>(kernel_, kernel_.finder());
 };
 
 TEST_F(StereoCameraTest, PairsCarryTheDriversStampsInOrder) {
   kernel_.change(1, [](FakeCamera& camera) { camera.offset_ns = 1'000'000; });
   start(config());
-  ASSERT_TRUE(comesTrue([this] { return pairCount() >= 100; }));
-  stereo_->stop();
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const auto& [left, right] = pairs_[i].pair;
+  ASSERT_TRUE(rig_->pairsCome(100));
+  const auto pairs = rig_->stop();
+  expectOrdered(pairs);
+  for (const auto& images : pairs) {
+    const Frame& left = images.pair.left;
     EXPECT_EQ(left.time_ns, left.stamp_ns) << "no exposure is known";
     EXPECT_LE(left.time_ns, left.dequeued_ns);
-    EXPECT_EQ(pairs_[i].pair.skew_ns(), 1'000'000);
+    EXPECT_EQ(images.pair.skew_ns(), 1'000'000);
     std::uint32_t drawn = 0;
     std::memcpy(&drawn, left.image.pixels.data(), sizeof(drawn));
     EXPECT_EQ(drawn, left.sequence) << "the picture is the one of the stamp";
-    if (i == 0) continue;
-    EXPECT_GT(left.time_ns, pairs_[i - 1].pair.left.time_ns);
-    EXPECT_GT(right.time_ns, pairs_[i - 1].pair.right.time_ns);
   }
 }
 
@@ -126,9 +93,9 @@ TEST_F(StereoCameraTest, CountsEveryFrameOfTheDriver) {
   kernel_.change(0, [](FakeCamera& camera) { camera.lose_every = 7; });
   kernel_.change(1, [](FakeCamera& camera) { camera.break_every = 5; });
   start(config());
-  ASSERT_TRUE(comesTrue([this] { return pairCount() >= 100; }));
-  stereo_->stop();
-  const auto status = stereo_->status();
+  ASSERT_TRUE(rig_->pairsCome(100));
+  rig_->stop();
+  const auto status = rig_->camera().status();
   const FakeCamera left = kernel_.look(0);
   const FakeCamera right = kernel_.look(1);
   // A gap is known when the frame behind it arrives.
@@ -144,10 +111,9 @@ TEST_F(StereoCameraTest, ComesBackAfterEveryFaultWhileTheOtherCameraRuns) {
   ASSERT_TRUE(morePairsCome());
   const auto afterFault = [this](const std::string& said, const auto& fault) {
     kernel_.change(1, fault);
-    EXPECT_TRUE(comesTrue([&] { return stereo_->status().right.problem.find(said) != std::string::npos; }))
-        << said;
-    const auto left_frames = stereo_->status().left.frames;
-    EXPECT_TRUE(comesTrue([&] { return stereo_->status().left.frames > left_frames + 10; }));
+    EXPECT_TRUE(comesTrue([&] { return rig_->right().problem.find(said) != std::string::npos; })) << said;
+    const auto left_frames = rig_->left().frames;
+    EXPECT_TRUE(comesTrue([&] { return rig_->left().frames > left_frames + 10; }));
     kernel_.change(1, [](FakeCamera& camera) {
       camera.open_error = camera.stream_on_error = camera.dequeue_error = camera.format_error = 0;
       camera.stalled = false;
@@ -165,7 +131,7 @@ TEST_F(StereoCameraTest, ComesBackAfterEveryFaultWhileTheOtherCameraRuns) {
   afterFault("USB bus has no bandwidth", withEio(&FakeCamera::stream_on_error, ENOSPC));
   afterFault("usermod -aG video", withEio(&FakeCamera::open_error, EACCES));
   afterFault("another program uses", withEio(&FakeCamera::format_error, EBUSY));
-  const auto status = stereo_->status();
+  const auto status = rig_->camera().status();
   EXPECT_EQ(status.right.reconnections, 5u);
   EXPECT_EQ(status.right.stalls, 1u);
   EXPECT_EQ(status.left.reconnections, 0u);
@@ -177,7 +143,7 @@ TEST_F(StereoCameraTest, FindsACameraAtItsPortUnderAnotherNumber) {
   ASSERT_TRUE(morePairsCome());
   const FakeCamera camera = kernel_.look(1);
   kernel_.unplug(1);
-  ASSERT_TRUE(comesTrue([this] { return stereo_->status().right.state == CameraState::Retrying; }));
+  ASSERT_TRUE(rightIsRetrying());
   // A stranger takes the old number; it must not be used.
   FakeCamera stranger;
   stranger.bus_info = "usb-fake-9";
@@ -186,7 +152,7 @@ TEST_F(StereoCameraTest, FindsACameraAtItsPortUnderAnotherNumber) {
   same.bus_info = camera.bus_info;
   kernel_.plugIn(5, same);
   EXPECT_TRUE(morePairsCome());
-  EXPECT_EQ(stereo_->status().right.device.path, kernel_.path(5));
+  EXPECT_EQ(rig_->right().device.path, kernel_.path(5));
   EXPECT_EQ(kernel_.look(1).frames_sent, 0u);
 }
 
@@ -194,23 +160,22 @@ TEST_F(StereoCameraTest, StartsWithoutCamerasAndPairsOnceTheyAreThere) {
   const FakeCamera left = kernel_.look(0);
   kernel_.unplug(0);
   start(config());
-  ASSERT_TRUE(comesTrue([this] { return stereo_->status().left.failed_attempts >= 2; }));
+  ASSERT_TRUE(comesTrue([this] { return rig_->left().failed_attempts >= 2; }));
   kernel_.plugIn(0, left);
   EXPECT_TRUE(morePairsCome());
-  EXPECT_EQ(stereo_->status().left.reconnections, 0u) << "the first time is no reconnection";
+  EXPECT_EQ(rig_->left().reconnections, 0u) << "the first time is no reconnection";
 }
 
 TEST_F(StereoCameraTest, FiftyCyclesLeaveNothingBehind) {
   start(config());
   for (std::uint64_t cycle = 0; cycle < 50; ++cycle) {
     ASSERT_TRUE(comesTrue([&] {
-      return stereo_->status().right.reconnections == cycle &&
-             stereo_->status().right.state == CameraState::Streaming;
+      return rig_->right().reconnections == cycle && rig_->right().state == CameraState::Streaming;
     }));
     EXPECT_LE(kernel_.openDescriptors(), 4);
     EXPECT_EQ(kernel_.mappings(), 8);
     kernel_.change(1, [](FakeCamera& camera) { camera.dequeue_error = EIO; });
-    ASSERT_TRUE(comesTrue([this] { return stereo_->status().right.state == CameraState::Retrying; }));
+    ASSERT_TRUE(rightIsRetrying());
     kernel_.change(1, [](FakeCamera& camera) { camera.dequeue_error = 0; });
   }
 }
@@ -221,28 +186,20 @@ TEST_F(StereoCameraTest, CorruptImagesAreCountedAndTheStreamGoesOn) {
     camera.payload = {0xff, 0xd8, 0xff, 0xe0, 1, 2, 3};
   });
   start(config());
-  ASSERT_TRUE(comesTrue([this] { return stereo_->status().right.undecodable > 20; }));
-  EXPECT_EQ(stereo_->status().right.frames, 0u);
-  EXPECT_GT(stereo_->status().left.frames, 0u);
-  EXPECT_NE(log().find("broken JPEG"), std::string::npos);
+  ASSERT_TRUE(comesTrue([this] { return rig_->right().undecodable > 20; }));
+  EXPECT_EQ(rig_->right().frames, 0u);
+  EXPECT_GT(rig_->left().frames, 0u);
+  EXPECT_NE(rig_->log().find("broken JPEG"), std::string::npos);
 }
 
 TEST_F(StereoCameraTest, ASlowReceiverGetsTheNewestPairsAndLossIsCounted) {
-  auto slow = config();
-  stereo_ = std::make_unique<StereoCamera>(
-      slow, kernel_, kernel_.finder(),
-      [this](StereoImages images) {
-        std::this_thread::sleep_for(milliseconds(30));
-        receive(std::move(images));
-      },
-      [](Severity, const std::string&) {});
-  stereo_->start();
-  ASSERT_TRUE(comesTrue([this] { return pairCount() >= 20; }));
-  stereo_->stop();
-  const auto status = stereo_->status();
+  start(config(), milliseconds(30));
+  ASSERT_TRUE(rig_->pairsCome(20));
+  const auto pairs = rig_->stop();
+  const auto status = rig_->camera().status();
   EXPECT_GT(status.delivered_late, 0u);
   EXPECT_EQ(status.left.stalls + status.right.stalls, 0u);
-  EXPECT_GE(status.pairing.pairs, pairs_.size() + status.delivered_late);
+  EXPECT_GE(status.pairing.pairs, pairs.size() + status.delivered_late);
 }
 
 TEST_F(StereoCameraTest, ControlsAreSetByEitherNameAndAgainAfterAReconnection) {
@@ -257,16 +214,16 @@ TEST_F(StereoCameraTest, ControlsAreSetByEitherNameAndAgainAfterAReconnection) {
   ASSERT_TRUE(morePairsCome());
   EXPECT_EQ(kernel_.look(1).controls[0].value, 40);
   EXPECT_EQ(kernel_.look(1).controls[1].value, 1);
-  ASSERT_EQ(stereo_->status().right.control_warnings.size(), 1u);
-  EXPECT_NE(stereo_->status().right.control_warnings[0].find("zoom_absolute"), std::string::npos);
+  ASSERT_EQ(rig_->right().control_warnings.size(), 1u);
+  EXPECT_NE(rig_->right().control_warnings[0].find("zoom_absolute"), std::string::npos);
 
-  stereo_->right().setControl("gain", 55);
+  rig_->camera().right().setControl("gain", 55);
   EXPECT_TRUE(comesTrue([this] { return kernel_.look(1).controls[0].value == 55; }));
   kernel_.change(1, [](FakeCamera& camera) {
     camera.dequeue_error = EIO;
     camera.controls[0].value = 0;
   });
-  ASSERT_TRUE(comesTrue([this] { return stereo_->status().right.state == CameraState::Retrying; }));
+  ASSERT_TRUE(rightIsRetrying());
   kernel_.change(1, [](FakeCamera& camera) { camera.dequeue_error = 0; });
   ASSERT_TRUE(morePairsCome());
   EXPECT_EQ(kernel_.look(1).controls[0].value, 55);
@@ -279,10 +236,10 @@ TEST_F(StereoCameraTest, StampsMoveToTheMiddleOfAManualExposure) {
   });
   start(config());
   ASSERT_TRUE(morePairsCome());
-  stereo_->stop();
+  const auto pairs = rig_->stop();
   // 20 x 100 us = 2 ms, of which the half is 1 ms; the fake stamps the start.
-  EXPECT_EQ(pairs_.back().pair.left.time_ns - pairs_.back().pair.left.stamp_ns, 1'000'000);
-  EXPECT_DOUBLE_EQ(pairs_.back().pair.left.exposure_s, 0.002);
+  EXPECT_EQ(pairs.back().pair.left.time_ns - pairs.back().pair.left.stamp_ns, 1'000'000);
+  EXPECT_DOUBLE_EQ(pairs.back().pair.left.exposure_s, 0.002);
 }
 
 TEST_F(StereoCameraTest, AnAutomaticExposureThatTheCameraDoesNotTellIsNotBelieved) {
@@ -292,8 +249,8 @@ TEST_F(StereoCameraTest, AnAutomaticExposureThatTheCameraDoesNotTellIsNotBelieve
   });
   start(config());
   ASSERT_TRUE(morePairsCome());
-  stereo_->stop();
-  EXPECT_TRUE(std::isnan(pairs_.back().pair.left.exposure_s));
+  const auto pairs = rig_->stop();
+  EXPECT_TRUE(std::isnan(pairs.back().pair.left.exposure_s));
 }
 
 TEST_F(StereoCameraTest, MatchExposureLetsTheRightCameraFollow) {

@@ -44,8 +44,8 @@ std::string messageOf(const std::string& yaml) {
 
 TEST(Parameters, ReadsNestedValuesAndKeepsDefaultsOfTheRest) {
   Outer params;
-  readParameters(YAML::Load("{corners: {threshold: 7}, method: per_axis, enabled: false, frame: map}"), "test.yaml",
-                 params);
+  readParameters(YAML::Load("{corners: {threshold: 7}, method: per_axis, enabled: false, frame: map}"),
+                 "test.yaml", params);
   EXPECT_EQ(params.corners.threshold, 7);
   EXPECT_EQ(params.method, Method::kPerAxis);
   EXPECT_FALSE(params.enabled);

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <string>
+
+#include "stereo_nav/capture/stereo_camera.h"
+
+namespace stereo_nav::nodes {
+
+/// What the capture node tells on /diagnostics: one status for each camera and one for their pairs.
+class CaptureDiagnostics {
+ public:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  struct Sources {
+    std::function<capture::StereoStatus()> status;
+    /// What is wrong with a camera's calibration; empty when nothing is.
+    std::function<std::string(capture::Side)> calibration_problem;
+    double wanted_rate_hz = 0.0;
+    double max_skew_s = 0.0;
+  };
+
+  CaptureDiagnostics(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, Sources sources);
+
+  /// Publishes when it is time to.
+  void update() { updater_.update(); }
+
+ private:
+  void describeCamera(capture::Side side, Status& status);
+  void describePairs(Status& status);
+
+  Sources sources_;
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace stereo_nav::nodes

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Measure the odometry on every case made from the recordings in $STEREO_NAV_DATA and print Markdown tables.
+#
+#   scripts/results.sh [WORK_DIR] [CONFIG...]
+#
+# WORK_DIR (default: a new temporary folder) keeps the bags and, for each case and configuration, what `evaluate`
+# writes. CONFIG: files of config/ (default: vo.yaml vo_thesis.yaml). The package must be built (scripts/build.sh).
+# Pinned to one core with taskset; a case with few frames is repeated until its timing stands on about 1000 frames.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
+[[ -d ${STEREO_NAV_DATA:-} ]] || die "STEREO_NAV_DATA names no folder; set it to the one that holds euroc_mh01_a"
+work=$(realpath "${1:-$(mktemp -d)}")
+shift || true
+configs=("$@")
+[[ ${#configs[@]} -gt 0 ]] || configs=(vo.yaml vo_thesis.yaml)
+set +u
+source "${STEREO_NAV_BUILD:-$STEREO_NAV_ROOT/build}/devel/setup.bash"
+set -u
+euroc=$STEREO_NAV_DATA/euroc_mh01_a kitti=$STEREO_NAV_DATA/kitti06_a unibo=$STEREO_NAV_DATA/unibo_robot
+mkdir -p "$work"
+
+# name, repetitions, arguments of import_sequence
+cases=(
+  "euroc|5|--format euroc $euroc"
+  "euroc_no_imu|5|--format euroc $euroc --no-imu"
+  "euroc_reversed|5|--format euroc $euroc --reverse"
+  "euroc_mirrored|5|--format euroc $euroc --mirror"
+  "euroc_every_2nd|10|--format euroc $euroc --every 2"
+  "euroc_right_50ms_late|10|--format euroc $euroc --every 2 --right-lag-frames 1"
+  "euroc_right_50ms_late_no_imu|10|--format euroc $euroc --every 2 --right-lag-frames 1 --no-imu"
+  "kitti|20|--format kitti $kitti"
+  "kitti_reversed|20|--format kitti $kitti --reverse"
+  "kitti_mirrored|20|--format kitti $kitti --mirror"
+  "unibo|3|--format images $unibo"
+)
+
+echo "| case | configuration | frames | lost | ATE m | rel. % | rel. deg/m | end % | ms median | ms p95 | disparity ms |"
+echo "|---|---|---|---|---|---|---|---|---|---|---|"
+for case in "${cases[@]}"; do
+  IFS='|' read -r name repeat arguments <<<"$case"
+  # shellcheck disable=SC2086  # the arguments are words
+  [[ -s $work/$name.bag ]] || rosrun stereo_nav import_sequence $arguments --output "$work/$name.bag" >/dev/null 2>&1
+  for config in "${configs[@]}"; do
+    out=$work/$name-${config%.yaml}
+    taskset -c 1 rosrun stereo_nav evaluate "$work/$name.bag" --config "$config" --repeat "$repeat" --output "$out" \
+      >"$out.log" 2>&1 || die "$name with $config failed: $(tail -n 1 "$out.log")"
+    /usr/bin/python3 "$STEREO_NAV_ROOT/scripts/lib/results_row.py" "$name" "$config" "$out"
+  done
+done
+
+echo
+echo "Spread of the static board of unibo_robot in the odometry frame:"
+for config in "${configs[@]}"; do
+  echo "- $config: $("$STEREO_NAV_ROOT/scripts/landmark_spread.py" "$work/unibo-${config%.yaml}/trajectory.kitti" \
+    "$unibo/board_track_stereo.txt")"
+done

@@ -1,0 +1,118 @@
+#include "stereo_nav/imu/frame_decoder.h"
+
+namespace stereo_nav::imu {
+namespace {
+
+/// Start bit, eight data bits, stop bit.
+constexpr double kBitsPerByte = 10.0;
+
+/// Raw frames carry their own time; only a jump of this clock counts as a step.
+constexpr double kRawClockStep_s = 0.04;
+
+double byteTime_s(int baud_rate) {
+  return kBitsPerByte / baud_rate;
+}
+
+class AngleDecoder : public FrameDecoder {
+ public:
+  AngleDecoder(AngleOrder order, const AngleGateParams& gate, int baud_rate)
+      : framer_(order), gate_(gate), byte_time_s_(byteTime_s(baud_rate)) {}
+
+  void push(const std::uint8_t* data, std::size_t size, double read_time_s, const Sink& sink) override {
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto candidate = framer_.push(data[i]);
+      if (!candidate) continue;
+      const std::uint64_t last_byte = candidate->first_byte + AngleFramer::kFrameBytes;
+      const auto behind = static_cast<double>(framer_.counters().bytes - last_byte + (size - 1 - i));
+      gate_.push(*candidate, read_time_s - behind * byte_time_s_,
+                 [&](const AngleFrame& frame) { deliver(frame, sink); });
+    }
+  }
+
+  void reset() override {
+    framer_.reset();
+    gate_.reset();
+    last_index_.reset();
+  }
+
+  DecoderCounters counters() const override {
+    return {framer_.counters().bytes, framer_.counters().bytes_skipped, gate_.counters().delivered,
+            framer_.counters().impossible + gate_.counters().implausible, lost_};
+  }
+
+  double wireTime_s() const override { return AngleFramer::kFrameBytes * byte_time_s_; }
+
+ private:
+  void deliver(const AngleFrame& frame, const Sink& sink) {
+    if (last_index_) lost_ += frame.index - *last_index_ - 1;
+    last_index_ = frame.index;
+    DecodedFrame decoded;
+    decoded.angles = frame.angles;
+    decoded.device_clock = static_cast<double>(frame.index);
+    decoded.arrival_s = frame.arrival_s;
+    sink(decoded);
+  }
+
+  AngleFramer framer_;
+  AngleGate gate_;
+  double byte_time_s_;
+  std::optional<std::uint64_t> last_index_;
+  std::uint64_t lost_ = 0;
+};
+
+class RawDecoder : public FrameDecoder {
+ public:
+  explicit RawDecoder(int baud_rate) : byte_time_s_(byteTime_s(baud_rate)) {}
+
+  void push(const std::uint8_t* data, std::size_t size, double read_time_s, const Sink& sink) override {
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto frame = parser_.push(data[i]);
+      if (!frame) continue;
+      const auto behind =
+          static_cast<double>(parser_.counters().bytes - 1 - frame->last_byte + (size - 1 - i));
+      DecodedFrame decoded;
+      decoded.raw = frame->measurement;
+      decoded.device_clock = unwrap(frame->measurement.device_time_us);
+      decoded.device_clock_step = kRawClockStep_s;
+      decoded.arrival_s = read_time_s - behind * byte_time_s_;
+      sink(decoded);
+    }
+  }
+
+  void reset() override {
+    parser_.reset();
+    last_time_us_.reset();
+  }
+
+  DecoderCounters counters() const override {
+    const RawParserCounters& c = parser_.counters();
+    return {c.bytes, c.bytes_skipped, c.delivered, c.bad_crc + c.impossible, c.lost};
+  }
+
+  double wireTime_s() const override { return raw_protocol::kFrameBytes * byte_time_s_; }
+
+ private:
+  /// A step back, as after a restart of the module, stays a step back.
+  double unwrap(std::uint32_t time_us) {
+    if (last_time_us_) time_s_ += static_cast<std::int32_t>(time_us - *last_time_us_) * 1e-6;
+    last_time_us_ = time_us;
+    return time_s_;
+  }
+
+  RawParser parser_;
+  double byte_time_s_;
+  std::optional<std::uint32_t> last_time_us_;
+  double time_s_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameDecoder> makeAngleDecoder(AngleOrder order, const AngleGateParams& gate, int baud_rate) {
+  return std::make_unique<AngleDecoder>(order, gate, baud_rate);
+}
+
+std::unique_ptr<FrameDecoder> makeRawDecoder(int baud_rate) {
+  return std::make_unique<RawDecoder>(baud_rate);
+}
+
+}  // namespace stereo_nav::imu

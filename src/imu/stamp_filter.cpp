@@ -1,0 +1,80 @@
+#include "stereo_nav/imu/stamp_filter.h"
+
+#include <algorithm>
+
+namespace stereo_nav::imu {
+namespace {
+
+/// Arrivals that stay late this long are not batched but renumbered.
+constexpr double kStepWatch_s = 0.5;
+/// Stamps keep at least this share of the period between them when the line is re-estimated.
+constexpr double kMinStep = 0.1;
+
+}  // namespace
+
+void StampFilterParams::describe(ParameterVisitor& visitor) {
+  visitor.real("window_s", window_s, {2.0, 600.0}, "s",
+               "arrivals the device clock is estimated from; longer is smoother, shorter follows its drift");
+  visitor.real("settle_s", settle_s, {0.2, 60.0}, "s", "time before the device clock's rate is re-estimated");
+  visitor.real("max_gap_s", max_gap_s, {0.05, 10.0}, "s", "silence after which the estimate begins anew");
+}
+
+void StampFilter::reset() {
+  *this = StampFilter(params_);
+}
+
+void StampFilter::beginWindow() {
+  older_.clear();
+  younger_.clear();
+}
+
+double StampFilter::stamp(double x, double step, double arrival_s) {
+  const bool gap = last_arrival_s_ && arrival_s - *last_arrival_s_ > params_.max_gap_s;
+  if (gap || (last_x_ && x <= *last_x_)) {
+    beginWindow();
+    last_stamp_s_.reset();
+  }
+  addToWindow(x, arrival_s);
+
+  if (settled()) {
+    slope_ = older_.middleSlope();
+    slope_measured_ = true;
+  } else if (!slope_measured_ && x > first_x_) {
+    slope_ = (arrival_s - first_arrival_s_) / (x - first_x_);
+  }
+  const double slope = slope_.value_or(0.0);
+  double stamp_s = slope * x + older_.offset(slope);
+  watchForStep(arrival_s - stamp_s, 0.5 * slope * step, arrival_s);
+  if (last_stamp_s_) stamp_s = std::max(stamp_s, *last_stamp_s_ + kMinStep * slope * (x - *last_x_));
+  last_x_ = x;
+  last_arrival_s_ = arrival_s;
+  last_stamp_s_ = stamp_s;
+  return stamp_s;
+}
+
+void StampFilter::addToWindow(double x, double arrival_s) {
+  if (older_.empty()) {
+    window_start_s_ = younger_start_s_ = late_since_s_ = arrival_s;
+    if (!slope_measured_) {
+      first_x_ = x;
+      first_arrival_s_ = arrival_s;
+    }
+  }
+  if (arrival_s - window_start_s_ > params_.window_s) {
+    older_ = younger_;
+    window_start_s_ = younger_start_s_;
+  }
+  if (arrival_s - younger_start_s_ > 0.5 * params_.window_s) {
+    younger_.clear();
+    younger_start_s_ = arrival_s;
+  }
+  older_.add(x, arrival_s);
+  younger_.add(x, arrival_s);
+}
+
+void StampFilter::watchForStep(double late_s, double threshold_s, double arrival_s) {
+  if (late_s <= threshold_s) late_since_s_ = arrival_s;
+  if (arrival_s - late_since_s_ > kStepWatch_s) beginWindow();
+}
+
+}  // namespace stereo_nav::imu

@@ -1,0 +1,27 @@
+// The visual_odometry node as a nodelet: in the manager of the image nodelets, images travel without a copy.
+#include <nodelet/nodelet.h>
+
+#include <memory>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "stereo_nav/nodes/visual_odometry_node.h"
+
+namespace stereo_nav::nodes {
+
+class VisualOdometryNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    try {
+      node_ = std::make_unique<VisualOdometryNode>(getNodeHandle(), getPrivateNodeHandle(), getName());
+    } catch (const std::exception& error) {
+      NODELET_FATAL_STREAM(error.what());
+      throw;
+    }
+  }
+
+  std::unique_ptr<VisualOdometryNode> node_;
+};
+
+}  // namespace stereo_nav::nodes
+
+PLUGINLIB_EXPORT_CLASS(stereo_nav::nodes::VisualOdometryNodelet, nodelet::Nodelet)

@@ -1,0 +1,37 @@
+#include "stereo_nav/ros_io/bag_file.h"
+
+#include "stereo_nav/ros_io/conversions.h"
+
+namespace stereo_nav::ros_io {
+
+BagFile::BagFile(const std::string& path) : path_(path), file_(path), bag_(std::make_unique<rosbag::Bag>()) {
+  guarded([this] { bag_->open(file_.temporaryPath(), rosbag::bagmode::Write); });
+}
+
+BagFile::~BagFile() {
+  // The destructor of a rosbag::Bag writes the index. On a full disk that throws, and out of a destructor it
+  // would end the program; so the bag is closed here, or, once it has failed, given up with the little memory
+  // it holds.
+  try {
+    if (!failed_) bag_->close();
+  } catch (const std::exception&) {
+    failed_ = true;
+  }
+  if (failed_) static_cast<void>(bag_.release());
+}
+
+void BagFile::commit() {
+  guarded([this] { bag_->close(); });
+  file_.commit();
+}
+
+void BagFile::guarded(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const rosbag::BagException& error) {
+    failed_ = true;
+    throw InputError(path_ + ": cannot be written: " + error.what() + "; is there space on the disk?");
+  }
+}
+
+}  // namespace stereo_nav::ros_io

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+namespace stereo_nav::test {
+
+/// A program that runs beside the test and is ended by Ctrl-C's signal, as roslaunch does.
+class NodeProcess {
+ public:
+  explicit NodeProcess(const std::vector<std::string>& command) : pid_(fork()) {
+    if (pid_ != 0) return;
+    std::vector<char*> arguments;
+    for (const auto& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  ~NodeProcess() { stop(); }
+  NodeProcess(const NodeProcess&) = delete;
+  NodeProcess& operator=(const NodeProcess&) = delete;
+
+  /// Exit status; 128 when it was killed by a signal.
+  int stop() {
+    if (pid_ <= 0) return status_;
+    kill(pid_, SIGINT);
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  }
+
+ private:
+  pid_t pid_;
+  int status_ = 0;
+};
+
+}  // namespace stereo_nav::test

@@ -1,0 +1,286 @@
+// Runs inside the virtual machine of vm.sh, beside a ROS master: the real nodes on its cameras.
+#include <cv_bridge/cv_bridge.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/SetCameraInfo.h>
+#include <stereo_msgs/DisparityImage.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "stereo_nav/StereoSync.h"
+#include "stereo_nav/capture/v4l2_device.h"
+#include "stereo_nav/ros_io/recording.h"
+#include "stereo_nav/ros_io/topics.h"
+#include "v4l2/feeder.h"
+#include "v4l2/node_process.h"
+
+namespace stereo_nav {
+namespace {
+
+using namespace std::chrono_literals;
+using test::NodeProcess;
+
+const std::string kNode = "/stereo_capture";
+
+/// The latest message of a topic, and how many came.
+template <class Message>
+class Topic {
+ public:
+  explicit Topic(const std::string& name)
+      : subscriber_(handle_.subscribe<Message>(
+            name, 100,
+            [this](const boost::shared_ptr<const Message>& message) { messages.push_back(message); })) {}
+  std::vector<boost::shared_ptr<const Message>> messages;
+
+ private:
+  ros::NodeHandle handle_;
+  ros::Subscriber subscriber_;
+};
+
+/// Lets messages in until it comes true; false after a generous time.
+bool comesTrue(const std::function<bool()>& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + 90s;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    ros::spinOnce();
+    std::this_thread::sleep_for(5ms);
+  }
+  return true;
+}
+
+void setCameras(const std::string& left, const std::string& right, int width, int height, double rate_hz) {
+  ros::param::del(kNode);
+  ros::param::set(kNode + "/left/device", left);
+  ros::param::set(kNode + "/right/device", right);
+  ros::param::set(kNode + "/width", width);
+  ros::param::set(kNode + "/height", height);
+  ros::param::set(kNode + "/rate_hz", rate_hz);
+  ros::param::set(kNode + "/max_skew_s", 0.4 / rate_hz);
+  ros::param::set(kNode + "/stall_timeout_s", 10.0);
+}
+
+/// The calibration of the thesis' rig, 320 x 240.
+sensor_msgs::CameraInfo calibration(bool right) {
+  sensor_msgs::CameraInfo info;
+  info.width = 320;
+  info.height = 240;
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.0);
+  info.K = {417.0, 0, 153.0, 0, 417.0, 130.0, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.P = {463.8, 0, 141.8, right ? -56.86 : 0.0, 0, 463.8, 117.1, 0, 0, 0, 1, 0};
+  return info;
+}
+
+std::string diagnosticsText(const Topic<diagnostic_msgs::DiagnosticArray>& topic,
+                            const std::string& status_name) {
+  std::string text;
+  for (const auto& message : topic.messages) {
+    for (const auto& status : message->status) {
+      if (status.name.find(status_name) == std::string::npos) continue;
+      text = status.message;
+      for (const auto& value : status.values) text += "\n" + value.key + ": " + value.value;
+    }
+  }
+  return text;
+}
+
+TEST(StereoCaptureNode, PublishesMatchingPairsAndSavesTheCalibration) {
+  constexpr auto kPeriod = 250ms;
+  const auto source = [](std::uint32_t counter) {
+    return capture::jpegOf(capture::drawCounter(320, 240, counter));
+  };
+  capture::Feeder left_feeder("/dev/video10", V4L2_PIX_FMT_MJPEG, 320, 240);
+  capture::Feeder right_feeder("/dev/video11", V4L2_PIX_FMT_MJPEG, 320, 240);
+  const auto first = std::chrono::steady_clock::now() + 100ms;
+  left_feeder.start(first, kPeriod, source);
+  right_feeder.start(first + 10ms, kPeriod, source);
+
+  Topic<sensor_msgs::Image> left("camera/left/image_raw"), right("camera/right/image_raw");
+  Topic<sensor_msgs::CameraInfo> left_info("camera/left/camera_info"), right_info("camera/right/camera_info");
+  Topic<StereoSync> sync("camera/sync");
+  Topic<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  setCameras("/dev/video10", "/dev/video11", 320, 240, 4.0);
+  auto node = std::make_unique<NodeProcess>(std::vector<std::string>{STEREO_CAPTURE});
+
+  ASSERT_TRUE(comesTrue([&] { return right.messages.size() >= 12 && right_info.messages.size() >= 12; }));
+  EXPECT_EQ(right_info.messages.back()->K[0], 0.0) << "not calibrated yet, and images flow all the same";
+  EXPECT_TRUE(comesTrue([&] {
+    return diagnosticsText(diagnostics, "Left camera")
+               .find("no calibration: file:///tmp/ros_home/camera_info/left.yaml") != std::string::npos;
+  })) << diagnosticsText(diagnostics, "Left camera");
+
+  std::map<ros::Time, sensor_msgs::ImageConstPtr> lefts;
+  for (const auto& image : left.messages) lefts[image->header.stamp] = image;
+  std::map<ros::Time, StereoSyncConstPtr> syncs;
+  for (const auto& message : sync.messages) syncs[message->header.stamp] = message;
+  std::size_t compared = 0;
+  const double monotonic_to_ros_s = 1e-9 * static_cast<double>(capture::linuxKernel().realtimeNow() -
+                                                               capture::linuxKernel().monotonicNow());
+  for (std::size_t i = 1; i < right.messages.size(); ++i) {
+    const auto& image = right.messages[i];
+    EXPECT_EQ(image->header.frame_id, "camera_left_optical");
+    const auto partner = lefts.find(image->header.stamp);
+    const auto pair = syncs.find(image->header.stamp);
+    if (partner == lefts.end() || pair == syncs.end()) continue;  // lost on the way here while subscribing
+    const auto counter = capture::readCounter(cv_bridge::toCvCopy(partner->second, "mono8")->image);
+    EXPECT_EQ(counter, capture::readCounter(cv_bridge::toCvCopy(image, "mono8")->image));
+    EXPECT_NEAR(pair->second->skew_s, 0.010, 1e-5);
+    EXPECT_NEAR((pair->second->right_stamp - pair->second->left_stamp).toSec(), 0.010, 1e-5);
+    // The feeder's time of the image, not the time of its arrival; only the clock's offset is measured.
+    const double due_s =
+        std::chrono::duration<double>((first + counter * kPeriod).time_since_epoch()).count();
+    EXPECT_NEAR(image->header.stamp.toSec(), due_s + monotonic_to_ros_s, 0.005);
+    ++compared;
+  }
+  EXPECT_GE(compared, 6u);
+
+  // What camera_calibration's COMMIT does.
+  for (const std::string side : {"left", "right"}) {
+    sensor_msgs::SetCameraInfo request;
+    request.request.camera_info = calibration(side == "right");
+    ASSERT_TRUE(ros::service::call("camera/" + side + "/set_camera_info", request));
+    EXPECT_TRUE(request.response.success) << request.response.status_message;
+    EXPECT_TRUE(std::filesystem::exists("/tmp/ros_home/camera_info/" + side + ".yaml"));
+  }
+  Topic<sensor_msgs::Image> rectified("camera/left/image_rect");
+  Topic<stereo_msgs::DisparityImage> disparity("camera/disparity");
+  EXPECT_TRUE(comesTrue([&] { return rectified.messages.size() >= 2 && disparity.messages.size() >= 2; }));
+  ASSERT_FALSE(disparity.messages.empty());
+  EXPECT_NEAR(disparity.messages.back()->T, 56.86 / 463.8, 1e-3);
+  EXPECT_EQ(node->stop(), 0);
+
+  left_info.messages.clear();
+  node = std::make_unique<NodeProcess>(std::vector<std::string>{STEREO_CAPTURE});
+  ASSERT_TRUE(comesTrue([&] { return !left_info.messages.empty(); }));
+  EXPECT_EQ(left_info.messages.back()->K[0], 417.0) << "the saved calibration is loaded";
+}
+
+std::int32_t controlOf(const std::string& path, const std::string& name) {
+  capture::V4l2Device device(capture::linuxKernel(), path);
+  return device.getControl(*capture::findControl(device.controls(), name));
+}
+
+TEST(StereoCaptureNode, ReconfiguresAndSurvivesADisconnection) {
+  setCameras("platform:vivid-000", "platform:vivid-001", 320, 180, 10.0);
+  ros::param::set(kNode + "/encoding", "mono8");
+  ros::param::set(kNode + "/load_image_proc", false);
+  ros::param::set(kNode + "/controls/gain_automatic", false);
+  ros::param::set(kNode + "/controls/brightness", 100);
+  Topic<sensor_msgs::Image> right("camera/right/image_raw");
+  Topic<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  const NodeProcess node({STEREO_CAPTURE});
+  ASSERT_TRUE(comesTrue([&] { return right.messages.size() >= 3; }));
+  EXPECT_EQ(right.messages.back()->encoding, "mono8");
+  EXPECT_EQ(controlOf("/dev/video0", "brightness"), 100);
+
+  dynamic_reconfigure::Reconfigure change;
+  change.request.config.ints.resize(1);
+  change.request.config.ints[0].name = "gain";
+  change.request.config.ints[0].value = 77;
+  ASSERT_TRUE(ros::service::call(kNode + "/set_parameters", change));
+  EXPECT_TRUE(comesTrue([] { return controlOf("/dev/video1", "gain") == 77; }));
+
+  {
+    capture::V4l2Device device(capture::linuxKernel(), "/dev/video1");
+    const auto* disconnect = capture::findControl(device.controls(), "disconnect");
+    ASSERT_NE(disconnect, nullptr);
+    device.setControl(*disconnect, 1);
+  }
+  EXPECT_TRUE(comesTrue([&] {
+    return diagnosticsText(diagnostics, "Right camera").find("Reconnections: 1") != std::string::npos;
+  })) << diagnosticsText(diagnostics, "Right camera");
+  const auto before = right.messages.size();
+  EXPECT_TRUE(comesTrue([&] { return right.messages.size() >= before + 3; }));
+  std::cout << diagnosticsText(diagnostics, "Right camera") << "\n"
+            << diagnosticsText(diagnostics, "Stereo pairs") << "\n";
+}
+
+/// A drive of the simulator, its images through the loopback cameras, the capture node with its nodelets,
+/// odometry.
+TEST(WholeChain, OdometryFromTheCamerasFollowsTheDrive) {
+  constexpr auto kPeriod = 500ms;  // the emulated machine needs that long for disparity and odometry
+  const ros_io::Recording recording(SIMULATED_DRIVE, {});
+  std::vector<ros_io::RawPair> pairs;
+  recording.forEachPair([&pairs](const ros_io::RawPair& pair) {
+    pairs.push_back({pair.left_time_s, pair.right_time_s, pair.left.clone(), pair.right.clone()});
+  });
+  ASSERT_GT(pairs.size(), 20u);
+  const auto truth = recording.groundTruth("", true).trajectory;
+  const int width = pairs[0].left.cols, height = pairs[0].left.rows;
+
+  // The drive starts only when everything runs: until then the first image.
+  std::atomic<std::uint32_t> start_counter{1u << 30};
+  const auto indexOf = [&](std::uint32_t counter) {
+    const std::uint32_t start = start_counter;
+    return counter < start ? 0 : std::min<std::size_t>(counter - start, pairs.size() - 1);
+  };
+  capture::Feeder left_feeder("/dev/video10", V4L2_PIX_FMT_GREY, width, height);
+  capture::Feeder right_feeder("/dev/video11", V4L2_PIX_FMT_GREY, width, height);
+  const auto bytesOf = [](const cv::Mat& image) {
+    return std::vector<std::uint8_t>(image.datastart, image.dataend);
+  };
+  const auto first = std::chrono::steady_clock::now() + 100ms;
+  std::atomic<std::uint32_t> latest_counter{0};
+  left_feeder.start(first, kPeriod, [&](std::uint32_t counter) {
+    latest_counter = counter;
+    return bytesOf(pairs[indexOf(counter)].left);
+  });
+  right_feeder.start(first, kPeriod,
+                     [&](std::uint32_t counter) { return bytesOf(pairs[indexOf(counter)].right); });
+
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  const auto T_base_camera = recording.transform(ros_io::frames::kBase, ros_io::frames::kLeftOptical);
+  ASSERT_TRUE(T_base_camera);
+  geometry_msgs::TransformStamped mounting = tf2::eigenToTransform(*T_base_camera);
+  mounting.header.frame_id = ros_io::frames::kBase;
+  mounting.child_frame_id = ros_io::frames::kLeftOptical;
+  broadcaster.sendTransform(mounting);
+
+  std::filesystem::remove_all("/tmp/ros_home/camera_info");
+  setCameras("/dev/video10", "/dev/video11", width, height, 2.0);
+  ros::param::set(kNode + "/encoding", "mono8");
+  ros::param::set("/visual_odometry/imu", "none");
+  Topic<nav_msgs::Odometry> odometry("odom");
+  const NodeProcess capture_node({STEREO_CAPTURE});
+  ASSERT_TRUE(comesTrue([] { return ros::service::exists("camera/right/set_camera_info", false); }));
+  for (const std::string side : {"left", "right"}) {
+    sensor_msgs::SetCameraInfo request;
+    request.request.camera_info = side == "left" ? recording.leftInfo() : recording.rightInfo();
+    ASSERT_TRUE(ros::service::call("camera/" + side + "/set_camera_info", request));
+  }
+  const NodeProcess odometry_node({VISUAL_ODOMETRY, "__name:=visual_odometry"});
+  ASSERT_TRUE(comesTrue([&] { return odometry.messages.size() >= 3; })) << "odometry of the standing robot";
+  const std::uint32_t start = latest_counter + 3;
+  start_counter = start;
+  ASSERT_TRUE(comesTrue([&] { return latest_counter >= start + pairs.size() + 6; }));
+
+  const auto& last = odometry.messages.back()->pose.pose.position;
+  const Eigen::Isometry3d T_start_end = truth.front().T_world_body.inverse() * truth.back().T_world_body;
+  const Eigen::Vector3d error = Eigen::Vector3d(last.x, last.y, last.z) - T_start_end.translation();
+  std::cout << odometry.messages.size() << " odometry messages; end of the drive "
+            << T_start_end.translation().norm() << " m away, error " << error.norm() << " m\n";
+  EXPECT_GT(T_start_end.translation().norm(), 0.5);
+  EXPECT_LT(error.norm(), 0.1 * T_start_end.translation().norm());
+}
+
+}  // namespace
+}  // namespace stereo_nav
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "v4l2_node_test", ros::init_options::NoSigintHandler);
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

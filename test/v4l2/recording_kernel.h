@@ -1,0 +1,60 @@
+#pragma once
+
+#include <linux/videodev2.h>
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "stereo_nav/capture/kernel.h"
+
+namespace stereo_nav::capture {
+
+/// The real system calls, with a record of every buffer that a driver handed out.
+class RecordingKernel : public Kernel {
+ public:
+  struct Buffer {
+    std::int64_t stamp_us;
+    std::uint32_t sequence;
+    std::uint32_t flags;
+  };
+
+  int open(const std::string& path) override {
+    const int descriptor = linuxKernel().open(path);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    paths_[descriptor] = path;
+    return descriptor;
+  }
+  void close(int descriptor) override { linuxKernel().close(descriptor); }
+  int ioctl(int descriptor, unsigned long request, void* argument) override {
+    const int result = linuxKernel().ioctl(descriptor, request, argument);
+    if (request == VIDIOC_DQBUF && result == 0) {
+      const auto& buffer = *static_cast<const v4l2_buffer*>(argument);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      buffers_[paths_.at(descriptor)].push_back(
+          {buffer.timestamp.tv_sec * 1'000'000LL + buffer.timestamp.tv_usec, buffer.sequence, buffer.flags});
+    }
+    return result;
+  }
+  void* map(int descriptor, std::size_t length, std::int64_t offset) override {
+    return linuxKernel().map(descriptor, length, offset);
+  }
+  void unmap(void* address, std::size_t length) override { linuxKernel().unmap(address, length); }
+  Ready wait(int descriptor, int timeout_ms) override { return linuxKernel().wait(descriptor, timeout_ms); }
+  std::int64_t monotonicNow() override { return linuxKernel().monotonicNow(); }
+  std::int64_t realtimeNow() override { return linuxKernel().realtimeNow(); }
+
+  std::vector<Buffer> buffersOf(const std::string& path) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return buffers_[path];
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<int, std::string> paths_;
+  std::map<std::string, std::vector<Buffer>> buffers_;
+};
+
+}  // namespace stereo_nav::capture
