@@ -14,7 +14,6 @@ for group in "${groups[@]}"; do
   [[ $group == build || $group == test ]] || die "unknown group '$group': build or test"
 done
 
-# shellcheck disable=SC1091
 source /etc/os-release
 list="$STEREO_NAV_ROOT/scripts/dependencies/$ID-${VERSION_ID:-}.txt"
 if [[ ! -f $list ]]; then
