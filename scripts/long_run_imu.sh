@@ -25,9 +25,8 @@ start() {
   done
   shift
   reader=("$@")
-  # The reader is there before the first frame: the module is started when its port has been opened.
-  "$bin/imu_emulator" --link "$work/$name" --log "$work/$name.csv" --pause-at 0 --pause-for 1 \
-    --duration "$((seconds + 1))" "${emulator[@]}" >"$work/$name.sent" &
+  "$bin/imu_emulator" --link "$work/$name" --log "$work/$name.csv" --wait-for-reader \
+    --duration "$seconds" "${emulator[@]}" >"$work/$name.sent" &
   pids+=($!)
   while [[ ! -e $work/$name ]]; do sleep 0.05; done
   "$bin/imu_drift" --port "$work/$name" --duration "$((seconds + 60))" --output "$work/out_$name" "${reader[@]}" \

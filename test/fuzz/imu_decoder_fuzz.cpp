@@ -16,8 +16,10 @@ void check(const DecodedFrame& frame) {
   };
   require(frame.angles.has_value() != frame.raw.has_value());
   require(std::isfinite(frame.device_clock) && std::isfinite(frame.arrival_s));
-  if (frame.angles) require(frame.angles->vector().allFinite() && frame.angles->vector().cwiseAbs().maxCoeff() < 361);
-  if (frame.raw) require(frame.raw->angular_velocity.allFinite() && frame.raw->linear_acceleration.allFinite());
+  if (frame.angles)
+    require(frame.angles->vector().allFinite() && frame.angles->vector().cwiseAbs().maxCoeff() < 361);
+  if (frame.raw)
+    require(frame.raw->angular_velocity.allFinite() && frame.raw->linear_acceleration.allFinite());
 }
 
 }  // namespace
