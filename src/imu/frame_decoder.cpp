@@ -1,5 +1,7 @@
 #include "stereo_nav/imu/frame_decoder.h"
 
+#include <algorithm>
+
 namespace stereo_nav::imu {
 namespace {
 
@@ -8,6 +10,12 @@ constexpr double kBitsPerByte = 10.0;
 
 /// Raw frames carry their own time; only a jump of this clock counts as a step.
 constexpr double kRawClockStep_s = 0.04;
+
+/// After a silence as long as this, a module that counts no time itself may have paused ...
+constexpr double kSilence_s = 0.5;
+/// ... unless about as many bytes have queued as it sends in that time, up to what one read takes.
+constexpr double kQueuedShare = 0.5;
+constexpr double kMaxRead = 4096.0;
 
 double byteTime_s(int baud_rate) {
   return kBitsPerByte / baud_rate;
@@ -19,6 +27,9 @@ class AngleDecoder : public FrameDecoder {
       : framer_(order), gate_(gate), byte_time_s_(byteTime_s(baud_rate)) {}
 
   void push(const std::uint8_t* data, std::size_t size, double read_time_s, const Sink& sink) override {
+    if (size == 0) return;
+    if (paused(size, read_time_s)) clock_restarted_ = true;
+    last_read_s_ = read_time_s;
     for (std::size_t i = 0; i < size; ++i) {
       const auto candidate = framer_.push(data[i]);
       if (!candidate) continue;
@@ -33,6 +44,7 @@ class AngleDecoder : public FrameDecoder {
     framer_.reset();
     gate_.reset();
     last_index_.reset();
+    last_read_s_.reset();
   }
 
   DecoderCounters counters() const override {
@@ -43,6 +55,13 @@ class AngleDecoder : public FrameDecoder {
   double wireTime_s() const override { return AngleFramer::kFrameBytes * byte_time_s_; }
 
  private:
+  /// Whether the module was silent, as opposed to this program being late.
+  bool paused(std::size_t size, double read_time_s) const {
+    if (!last_read_s_ || read_time_s - *last_read_s_ < kSilence_s) return false;
+    const double sent = AngleFramer::kFrameBytes * (read_time_s - *last_read_s_) / gate_.period_s();
+    return static_cast<double>(size) < kQueuedShare * std::min(sent, kMaxRead);
+  }
+
   void deliver(const AngleFrame& frame, const Sink& sink) {
     if (last_index_) lost_ += frame.index - *last_index_ - 1;
     last_index_ = frame.index;
@@ -50,6 +69,8 @@ class AngleDecoder : public FrameDecoder {
     decoded.angles = frame.angles;
     decoded.device_clock = static_cast<double>(frame.index);
     decoded.arrival_s = frame.arrival_s;
+    decoded.clock_restarted = clock_restarted_;
+    clock_restarted_ = false;
     sink(decoded);
   }
 
@@ -57,6 +78,8 @@ class AngleDecoder : public FrameDecoder {
   AngleGate gate_;
   double byte_time_s_;
   std::optional<std::uint64_t> last_index_;
+  std::optional<double> last_read_s_;
+  bool clock_restarted_ = false;
   std::uint64_t lost_ = 0;
 };
 

@@ -98,6 +98,7 @@ void ImuDevice::readOnce(double timeout_s, const Sink& sink) {
 
 void ImuDevice::deliver(const DecodedFrame& frame, const Sink& sink) {
   ImuReading reading;
+  if (frame.clock_restarted) stamps_.restartClock();
   const double sent_s = stamps_.stamp(frame.device_clock, frame.device_clock_step, frame.arrival_s);
   reading.time_s = sent_s - decoder_->wireTime_s() - params_.latency_s;
   reading.angles = frame.angles;

@@ -16,7 +16,6 @@ void StampFilterParams::describe(ParameterVisitor& visitor) {
   visitor.real("window_s", window_s, {2.0, 600.0}, "s",
                "arrivals the device clock is estimated from; longer is smoother, shorter follows its drift");
   visitor.real("settle_s", settle_s, {0.2, 60.0}, "s", "time before the device clock's rate is re-estimated");
-  visitor.real("max_gap_s", max_gap_s, {0.05, 10.0}, "s", "silence after which the estimate begins anew");
 }
 
 void StampFilter::reset() {
@@ -26,36 +25,43 @@ void StampFilter::reset() {
 void StampFilter::beginWindow() {
   older_.clear();
   younger_.clear();
+  late_since_s_.reset();
+}
+
+void StampFilter::restartClock() {
+  beginWindow();
+  last_x_.reset();
+  last_stamp_s_.reset();
 }
 
 double StampFilter::stamp(double x, double step, double arrival_s) {
-  const bool gap = last_arrival_s_ && arrival_s - *last_arrival_s_ > params_.max_gap_s;
-  if (gap || (last_x_ && x <= *last_x_)) {
-    beginWindow();
-    last_stamp_s_.reset();
-  }
+  if (last_x_ && x <= *last_x_) restartClock();
   addToWindow(x, arrival_s);
-
-  if (settled()) {
-    slope_ = older_.middleSlope();
-    slope_measured_ = true;
-  } else if (!slope_measured_ && x > first_x_) {
-    slope_ = (arrival_s - first_arrival_s_) / (x - first_x_);
-  }
+  updateSlope(x, arrival_s);
   const double slope = slope_.value_or(0.0);
   double stamp_s = slope * x + older_.offset(slope);
   watchForStep(arrival_s - stamp_s, 0.5 * slope * step, arrival_s);
   if (last_stamp_s_) stamp_s = std::max(stamp_s, *last_stamp_s_ + kMinStep * slope * (x - *last_x_));
   last_x_ = x;
-  last_arrival_s_ = arrival_s;
   last_stamp_s_ = stamp_s;
   return stamp_s;
 }
 
+void StampFilter::updateSlope(double x, double arrival_s) {
+  const double span_s = slope_ ? older_.span() * *slope_ : 0.0;
+  const double needed_s = std::max(params_.settle_s, std::min(slope_span_s_, 0.5 * params_.window_s));
+  if (older_.size() >= 2 && span_s >= needed_s) {
+    slope_ = older_.middleSlope();
+    slope_span_s_ = span_s;
+  } else if (slope_span_s_ == 0.0 && x > first_x_) {
+    slope_ = (arrival_s - first_arrival_s_) / (x - first_x_);
+  }
+}
+
 void StampFilter::addToWindow(double x, double arrival_s) {
   if (older_.empty()) {
-    window_start_s_ = younger_start_s_ = late_since_s_ = arrival_s;
-    if (!slope_measured_) {
+    window_start_s_ = younger_start_s_ = arrival_s;
+    if (slope_span_s_ == 0.0) {
       first_x_ = x;
       first_arrival_s_ = arrival_s;
     }
@@ -72,9 +78,15 @@ void StampFilter::addToWindow(double x, double arrival_s) {
   younger_.add(x, arrival_s);
 }
 
+/// Waits from the first late arrival on: frames that queued while this program slept come all at once.
 void StampFilter::watchForStep(double late_s, double threshold_s, double arrival_s) {
-  if (late_s <= threshold_s) late_since_s_ = arrival_s;
-  if (arrival_s - late_since_s_ > kStepWatch_s) beginWindow();
+  if (late_s <= threshold_s) {
+    late_since_s_.reset();
+  } else if (!late_since_s_) {
+    late_since_s_ = arrival_s;
+  } else if (arrival_s - *late_since_s_ > kStepWatch_s) {
+    beginWindow();
+  }
 }
 
 }  // namespace stereo_nav::imu

@@ -20,6 +20,7 @@ struct DecodedFrame {
   double device_clock = 0.0;       ///< grows: frame number (angles) or the module's time in seconds (raw)
   double device_clock_step = 1.0;  ///< what a frame lost unnoticed would hide on that clock
   double arrival_s = 0.0;          ///< last byte, same clock as the read times
+  bool clock_restarted = false;    ///< the device clock missed an unknown time before this frame
 };
 
 struct DecoderCounters {

@@ -10,7 +10,6 @@ namespace stereo_nav::imu {
 struct StampFilterParams {
   double window_s = 20.0;
   double settle_s = 2.0;
-  double max_gap_s = 0.5;
 
   void describe(ParameterVisitor& visitor);
 };
@@ -26,10 +25,10 @@ struct StampFilterParams {
 /// value.
 ///
 /// The window moves on in two overlapping generations of `window_s` each, of which the older one gives the
-/// line. Until a generation spans `settle_s`, the slope is the last one known; at the very first start it is
-/// the mean rate so far, and stamps are accurate only to the batching divided by the time passed.
-/// Frames lost unnoticed would shift all later ones: when half a second of arrivals stays late by more than
-/// half a period, the window begins anew with the slope it had.
+/// line. Its slope is replaced only by one from as long a span, or from half a window: at the very start
+/// after `settle_s`, before that it is the mean rate so far, and stamps are accurate only to the batching
+/// divided by the time passed. Frames lost unnoticed would shift all later ones: when half a second of
+/// arrivals stays late by more than half a period, the window begins anew with the slope it had.
 class StampFilter {
  public:
   explicit StampFilter(const StampFilterParams& params) : params_(params) {}
@@ -38,14 +37,15 @@ class StampFilter {
   /// `step`: what a lost frame adds to x. `arrival_s`: seconds on a steady clock.
   /// Returns the sending time in seconds on that steady clock, larger than the one before.
   double stamp(double x, double step, double arrival_s);
+  /// The device clock stood still for an unknown time before the next frame: only its rate is known further.
+  void restartClock();
   void reset();
 
   /// Seconds per unit of x; nothing before the second frame.
   std::optional<double> slope() const { return slope_; }
-  bool settled() const { return older_.size() >= 2 && span_s() >= params_.settle_s; }
 
  private:
-  double span_s() const { return slope_ ? older_.span() * *slope_ : 0.0; }
+  void updateSlope(double x, double arrival_s);
   void beginWindow();
   void addToWindow(double x, double arrival_s);
   void watchForStep(double late_s, double threshold_s, double arrival_s);
@@ -55,10 +55,10 @@ class StampFilter {
   LowerHull older_, younger_;
   double window_start_s_ = 0.0;
   double younger_start_s_ = 0.0;
-  std::optional<double> last_x_, last_arrival_s_, last_stamp_s_;
+  std::optional<double> last_x_, last_stamp_s_;
   double first_x_ = 0.0, first_arrival_s_ = 0.0;
-  bool slope_measured_ = false;  ///< from a settled window once
-  double late_since_s_ = 0.0;
+  double slope_span_s_ = 0.0;  ///< what the slope was measured over; 0 before the first settled window
+  std::optional<double> late_since_s_;
 };
 
 }  // namespace stereo_nav::imu

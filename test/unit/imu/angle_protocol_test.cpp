@@ -172,6 +172,27 @@ TEST(AngleProtocol, DeliversASlowModuleThatAccelerates) {
   EXPECT_GE(count, 995U);
 }
 
+TEST(AngleProtocol, TellsAPausingModuleFromALateReader) {
+  const auto decoder = makeAngleDecoder(AngleOrder::kYawPitchRoll, AngleGateParams(), kBaud);
+  int restarts = 0, frames = 0, k = 0;
+  const auto count = [&](const DecodedFrame& frame) {
+    restarts += frame.clock_restarted;
+    ++frames;
+  };
+  const auto read = [&](int frame_count, double time_s) {
+    Bytes bytes;
+    for (int i = 0; i < frame_count; ++i) append(bytes, encoded(steadyTurn(k++)));
+    decoder->push(bytes.data(), bytes.size(), time_s, count);
+  };
+  for (int i = 0; i < 200; ++i) read(1, 0.01 * i);
+  read(150, 3.5);  // the reader slept for 1.5 s
+  for (int i = 0; i < 200; ++i) read(1, 3.51 + 0.01 * i);
+  EXPECT_EQ(restarts, 0);
+  for (int i = 0; i < 200; ++i) read(1, 7.0 + 0.01 * i);  // the module did
+  EXPECT_EQ(restarts, 1);
+  EXPECT_EQ(frames, k);
+}
+
 TEST(AngleProtocol, AllocatesNothingOnceRunning) {
   Bytes bytes;
   std::mt19937 random(5);

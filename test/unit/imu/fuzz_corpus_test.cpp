@@ -13,8 +13,8 @@ namespace {
 /// Inputs that a fuzzer found worth keeping; decodeFuzzInput() aborts when one breaks a promise.
 void decodeCorpus(Protocol protocol, const std::string& name) {
   std::size_t files = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(STEREO_NAV_SOURCE_DIR) + "/test/fuzz/corpus/" + name)) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(STEREO_NAV_SOURCE_DIR) +
+                                                               "/test/fuzz/corpus/" + name)) {
     std::ifstream file(entry.path(), std::ios::binary);
     const std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     decodeFuzzInput(protocol, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
@@ -23,8 +23,12 @@ void decodeCorpus(Protocol protocol, const std::string& name) {
   EXPECT_GT(files, 5U);
 }
 
-TEST(FuzzCorpus, Angles) { decodeCorpus(Protocol::kAngles, "angles"); }
-TEST(FuzzCorpus, Raw) { decodeCorpus(Protocol::kRaw, "raw"); }
+TEST(FuzzCorpus, Angles) {
+  decodeCorpus(Protocol::kAngles, "angles");
+}
+TEST(FuzzCorpus, Raw) {
+  decodeCorpus(Protocol::kRaw, "raw");
+}
 
 }  // namespace
 }  // namespace stereo_nav::imu

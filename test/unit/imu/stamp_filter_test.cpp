@@ -88,8 +88,24 @@ TEST(StampFilter, BeginsAnewAfterASilence) {
   StampFilter filter({});
   errorsOf(filter, module, 0, 3000);
   // Nobody counted the frames of the five seconds in between.
+  filter.restartClock();
   const Errors errors = errorsOf(filter, module, 3500, 5000, 500.0);
   EXPECT_LT(errors.stddev_s, 1e-3);
+}
+
+TEST(StampFilter, StandsAProgramThatSleepsWhileTheModuleGoesOn) {
+  // Every 7 s nothing is read for 1.3 s; then everything comes at once, at the pace of the line.
+  BatchedModule module(0.00995, 0.016);
+  StampFilter filter({});
+  double worst = 0.0, ready_s = 0.0;
+  for (int k = 0; k < 20000; ++k) {
+    const double t = module.arrival_s(k);
+    const double awake_s = std::fmod(t, 7.0) < 1.3 ? t - std::fmod(t, 7.0) + 1.3 : t;
+    ready_s = std::max(awake_s, ready_s + 0.0013);
+    const double stamp = filter.stamp(k, 1.0, ready_s);
+    if (t > 102.0 + 10.0) worst = std::max(worst, std::abs(stamp - module.sent_s(k)));
+  }
+  EXPECT_LT(worst, 3e-3);
 }
 
 TEST(StampFilter, FollowsAClockThatStartsOver) {
