@@ -14,7 +14,6 @@ for group in "${groups[@]}"; do
   [[ $group == build || $group == test || $group == experiments ]] || die "unknown group '$group': build, test or experiments"
 done
 
-# shellcheck disable=SC1091
 source /etc/os-release
 list="$STEREO_NAV_ROOT/scripts/dependencies/$ID-${VERSION_ID:-}.txt"
 if [[ ! -f $list ]]; then

@@ -8,6 +8,7 @@
 #include "stage_clock.h"
 #include "stereo_nav/params/parameters.h"
 #include "stereo_nav/vo/exact_clique.h"
+#include "stereo_nav/vo/image_shift.h"
 
 namespace stereo_nav::vo {
 namespace {
@@ -194,7 +195,10 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   clock.lap("stereo");
   const std::vector<std::size_t> selected = selectRigid(guess, result);
   clock.lap("select");
-  const PoseEstimate estimate = estimatePose(selected, prior, guess);
+  PoseEstimate estimate = estimatePose(selected, prior, guess);
+  if (estimate.converged && isThin(estimate) && recover(images, estimate.view) > 0) {
+    estimate = estimatePose(foundTracks(), prior, estimate.view);
+  }
   clock.lap("estimate");
   if (!estimate.converged || estimate.inliers < static_cast<std::size_t>(params_.min_inliers)) {
     std::ostringstream message;
@@ -312,6 +316,25 @@ void StereoOdometry::trackAll(const Images& images, const StereoView& predicted)
       continue;
     trackOne(images, i, track.last_px, coarsest, Eigen::Matrix2f::Identity());
   }
+  trackAfterTurn(images);
+}
+
+void StereoOdometry::trackAfterTurn(const Images& images) {
+  constexpr double kFewShare = 0.5;
+  std::size_t alive = 0;
+  std::size_t found = 0;
+  for (const Track& track : tracks_) {
+    if (track.alive) ++alive;
+    if (track.found) ++found;
+  }
+  if (static_cast<double>(found) >= kFewShare * static_cast<double>(alive)) return;
+  const auto shift = coarseShift(keyframe_image_, images.left);
+  if (!shift) return;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!tracks_[i].alive || tracks_[i].found) continue;
+    trackOne(images, i, tracks_[i].keyframe_px + toEigen(*shift), params_.pyramid_levels - 1,
+             Eigen::Matrix2f::Identity());
+  }
 }
 
 StereoView StereoOdometry::leftOnlyView(const MotionPrior& prior, const StereoView& predicted) {
@@ -325,22 +348,44 @@ double StereoOdometry::epipolarSlack(const Vector6d& late_sigma) const {
   return calibration_.fx * (late_sigma.tail<3>().maxCoeff() + late_sigma.head<3>().maxCoeff() / kNearDepth_m);
 }
 
+bool StereoOdometry::isThin(const PoseEstimate& estimate) const {
+  constexpr double kThinShare = 0.6;
+  const auto alive =
+      std::count_if(tracks_.begin(), tracks_.end(), [](const Track& track) { return track.alive; });
+  return static_cast<double>(estimate.inliers) < kThinShare * static_cast<double>(alive);
+}
+
+std::size_t StereoOdometry::recover(const Images& images, const StereoView& view) {
+  std::size_t recovered = 0;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!tracks_[i].alive || tracks_[i].inlier) continue;
+    if (!trackOne(images, i, predictedPixel(i, view), 1, patchStep(i, view))) continue;
+    matchStereoOne(images, i, view, 0.0);
+    ++recovered;
+  }
+  return recovered;
+}
+
 void StereoOdometry::matchStereo(const Images& images, const StereoView& view, double slack_px) {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (tracks_[i].found) matchStereoOne(images, i, view, slack_px);
+  }
+}
+
+void StereoOdometry::matchStereoOne(const Images& images, std::size_t i, const StereoView& view,
+                                    double slack_px) {
     Track& track = tracks_[i];
     track.seen.has_right = false;
-    if (!track.found) continue;
     // Seen from where the feature is, not from where the map expects it.
     const double depth_m = (view.T_camera_world * landmarks_[i].p_world()).z();
-    if (depth_m < kNearestDepth_m) continue;
+    if (depth_m < kNearestDepth_m) return;
     const Eigen::Vector2d guess =
         transferToRight(calibration_, view.T_late_camera, track.seen.left_px, 1.0 / depth_m);
     const auto match = stereo_.refine(images.left, images.right, view.T_late_camera, track.seen.left_px, guess,
                                       slack_px);
-    if (!match) continue;
+    if (!match) return;
     track.seen.right_px = match->right_px;
     track.seen.has_right = true;
-  }
 }
 
 std::vector<std::size_t> StereoOdometry::foundTracks() const {

@@ -10,7 +10,7 @@ namespace stereo_nav::vo {
 
 struct PoseEstimatorParams {
   int iterations = 15;
-  double loss_px = 1.0;
+  double loss_px = 0.5;
   double max_error_px = 2.0;
 
   void describe(ParameterVisitor& visitor);

@@ -9,7 +9,7 @@
 namespace stereo_nav::vo {
 
 struct SparseStereoParams {
-  PatchTrackerParams refinement;
+  PatchTrackerParams refinement = defaultRefinement();
   double max_disparity_share = 0.25;
   int search_window_px = 11;
   double search_correlation = 0.7;
@@ -18,6 +18,13 @@ struct SparseStereoParams {
   double min_disparity_px = 0.1;
 
   void describe(ParameterVisitor& visitor);
+
+  /// Patches smaller than for tracking: surfaces lean more between the two cameras than between two frames.
+  static PatchTrackerParams defaultRefinement() {
+    PatchTrackerParams refinement;
+    refinement.window_px = 9;
+    return refinement;
+  }
 };
 
 struct StereoMatch {

@@ -16,7 +16,7 @@
 namespace stereo_nav::vo {
 
 struct KeyframeParams {
-  int window = 8;
+  int window = 12;
   double min_tracked_share = 0.8;
   double max_parallax_px = 20.0;
 
@@ -83,10 +83,17 @@ class StereoOdometry : public Odometry {
   MotionPrior motionPrior(const Images& images) const;
   StereoView predict(const Images& images, const MotionPrior& prior) const;
   void trackAll(const Images& images, const StereoView& predicted);
+  /// Where most tracks were lost, a turn that nothing predicted is looked for in the picture as a whole.
+  void trackAfterTurn(const Images& images);
   bool trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level,
                 const Eigen::Matrix2f& step);
   Eigen::Matrix2f patchStep(std::size_t i, const StereoView& view) const;
   void matchStereo(const Images& images, const StereoView& view, double slack_px);
+  void matchStereoOne(const Images& images, std::size_t i, const StereoView& view, double slack_px);
+  /// So few of the tracks agree that the prediction was probably poor.
+  bool isThin(const PoseEstimate& estimate) const;
+  /// Looks again for what was not found or did not fit, where the estimated motion has it.
+  std::size_t recover(const Images& images, const StereoView& view);
   double epipolarSlack(const Vector6d& late_sigma) const;
   std::vector<std::size_t> foundTracks() const;
   PoseEstimate estimateFrom(const std::vector<std::size_t>& tracks, const MotionPrior& prior,
