@@ -3,7 +3,7 @@
 #
 #   scripts/install_dependencies.sh [GROUP...]
 #
-# GROUP: build (what building and running needs, the default), test. The lists are in scripts/dependencies/.
+# GROUP: build (what building and running needs, the default), test, experiments. The lists are in scripts/dependencies/.
 # Says nothing and needs no network when everything is there.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
@@ -11,10 +11,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
 groups=("$@")
 [[ $# -gt 0 ]] || groups=(build)
 for group in "${groups[@]}"; do
-  [[ $group == build || $group == test ]] || die "unknown group '$group': build or test"
+  [[ $group == build || $group == test || $group == experiments ]] || die "unknown group '$group': build, test or experiments"
 done
 
-# shellcheck disable=SC1091
 source /etc/os-release
 list="$STEREO_NAV_ROOT/scripts/dependencies/$ID-${VERSION_ID:-}.txt"
 if [[ ! -f $list ]]; then

@@ -10,7 +10,6 @@ export PATH=/usr/bin:$PATH
 # ROS 1 comes from the distribution itself (Debian) or from /opt/ros/noetic (Ubuntu 20.04).
 if [[ -f /opt/ros/noetic/setup.bash && -z ${ROS_DISTRO:-} ]]; then
   set +u  # ROS's own setup files read variables that may be unset
-  # shellcheck disable=SC1091
   source /opt/ros/noetic/setup.bash
   set -u
 fi

@@ -30,7 +30,6 @@ install_package() { cmake --install "${work_dir%/*}" --prefix "$prefix"; }
 # as_user COMMAND...: with the install space's environment, and of this package nothing but that.
 as_user() (
   set +u
-  # shellcheck disable=SC1091
   source "$prefix/setup.bash"
   set -u
   "$@"

@@ -48,14 +48,15 @@ std::vector<std::string> DeviceFinder::nodes() const {
   return paths;
 }
 
-std::vector<FoundDevice> DeviceFinder::list() const {
+std::vector<FoundDevice> DeviceFinder::list(std::vector<std::string>* refused) const {
   std::vector<FoundDevice> devices;
   for (const auto& path : nodes()) {
     try {
       auto device = describe(path);
       devices.push_back(std::move(device));
-    } catch (const CaptureError&) {
-      // Metadata nodes, encoders, devices of other users: not cameras for us.
+    } catch (const CaptureError& error) {
+      // Metadata nodes and encoders are no cameras: nothing to say about them.
+      if (refused != nullptr && error.step() == Step::Open) refused->push_back(error.what());
     }
   }
   return devices;

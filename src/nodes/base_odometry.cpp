@@ -73,9 +73,9 @@ void BaseOdometry::start(const Eigen::Isometry3d& T_odom_base, const vo::Matrix6
   T_start_base_.setIdentity();
   previous_time_s_.reset();
   previous_lost_ = false;
-  estimate_ = BaseEstimate();
-  estimate_.twist_covariance = diagonal(params_.lost_speed_m_s, params_.lost_turn_rate_rad_s);
   setPose(T_odom_base, pose_covariance);
+  estimate_.twist.setZero();
+  estimate_.twist_covariance = diagonal(params_.lost_speed_m_s, params_.lost_turn_rate_rad_s);
 }
 
 void BaseOdometry::setPose(const Eigen::Isometry3d& T_odom_base, const vo::Matrix6d& pose_covariance) {

@@ -48,16 +48,26 @@ struct Graph {
   std::set<std::string> missing;  ///< what is still to come, in words
 };
 
-Graph lookAt(const std::vector<std::string>& required) {
+/// What has to be there before playback.
+struct Wanted {
+  std::vector<std::string> topics;         ///< with a publisher and a subscriber
+  std::vector<std::string> if_subscribed;  ///< with a publisher, if anybody subscribes
+};
+
+Graph lookAt(const Wanted& wanted) {
   Graph graph;
   XmlRpc::XmlRpcValue arguments, result, payload;
   arguments[0] = ros::this_node::getName();
   if (!ros::master::execute("getSystemState", arguments, result, payload, true)) return graph;
   NodesByTopic publishers = readNodes(payload[0]);
   NodesByTopic subscribers = readNodes(payload[1]);
-  for (const auto& topic : required) {
+  for (const auto& topic : wanted.topics) {
     if (publishers[topic].empty()) graph.missing.insert("a publisher of " + topic);
     if (subscribers[topic].empty()) graph.missing.insert("a subscriber of " + topic);
+  }
+  for (const auto& topic : wanted.if_subscribed) {
+    if (!subscribers[topic].empty() && publishers[topic].empty())
+      graph.missing.insert("a publisher of " + topic);
   }
   std::map<std::string, std::set<Connection>> of_node;
   for (const auto& [topic, nodes] : publishers) {
@@ -76,12 +86,12 @@ Graph lookAt(const std::vector<std::string>& required) {
 }
 
 /// Returns what was still missing when the time was over; empty if all is connected.
-std::set<std::string> waitForGraph(const std::vector<std::string>& required, double timeout_s) {
+std::set<std::string> waitForGraph(const Wanted& wanted, double timeout_s) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(timeout_s);
   Graph before;
   int steady = 0;
   while (ros::ok()) {
-    const Graph now = lookAt(required);
+    const Graph now = lookAt(wanted);
     steady = now.missing.empty() && now.established == before.established ? steady + 1 : 0;
     if (steady >= kSteadyPolls) return {};
     if (ros::WallTime::now() > end) return now.missing;
@@ -91,24 +101,26 @@ std::set<std::string> waitForGraph(const std::vector<std::string>& required, dou
   return {};
 }
 
+std::vector<std::string> topicsOf(const char* parameter) {
+  std::vector<std::string> topics;
+  ros::NodeHandle("~").getParam(parameter, topics);
+  for (auto& topic : topics) topic = ros::names::resolve(topic);
+  return topics;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "start_playback");
   ros::NodeHandle handle;
   ros::NodeHandle private_handle("~");
-  std::vector<std::string> required;
-  std::vector<std::string> also;
-  private_handle.getParam("topics", required);
-  private_handle.getParam("also", also);
-  required.insert(required.end(), also.begin(), also.end());
-  for (auto& topic : required) topic = handle.resolveName(topic);
+  const Wanted wanted{topicsOf("topics"), topicsOf("if_subscribed")};
   const double timeout_s = private_handle.param("timeout_s", 30.0);
   const auto player = private_handle.param<std::string>("player", "player");
 
   auto pause = handle.serviceClient<std_srvs::SetBool>(player + "/pause_playback");
   while (ros::ok() && !pause.exists()) ros::WallDuration(kPoll_s).sleep();  // the ROS clock stands still yet
-  const std::set<std::string> missing = waitForGraph(required, timeout_s);
+  const std::set<std::string> missing = waitForGraph(wanted, timeout_s);
   if (!ros::ok()) return 0;
   for (const auto& connection : missing) {
     ROS_WARN("playback starts without %s after %.0f s; did that node fail? First messages may be lost",

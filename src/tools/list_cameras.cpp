@@ -106,12 +106,11 @@ int main(int argc, char** argv) {
            "Lists the connected cameras with their stable names, formats and, if asked for, controls.\n";
     return std::strcmp(argv[1], "--help") == 0 ? 0 : 2;
   }
-  const auto cameras = DeviceFinder(linuxKernel()).list();
-  if (cameras.empty()) {
-    std::cout << "No camera found. Is one plugged in (`lsusb`), and may this user open it (`groups` must "
-                 "show video)?\n";
-    return 0;
-  }
+  std::vector<std::string> refused;
+  const auto cameras = DeviceFinder(linuxKernel()).list(&refused);
+  for (const auto& reason : refused) std::cout << reason << "\n";
+  if (cameras.empty() && refused.empty())
+    std::cout << "No camera found. Is one plugged in (`lsusb` shows it)?\n";
   for (const auto& camera : cameras) printCamera(camera, with_controls);
   printSharedControllers(cameras);
   printLaunchArguments(cameras);

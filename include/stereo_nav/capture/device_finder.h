@@ -30,8 +30,8 @@ class DeviceFinder {
   /// The folders are arguments for tests' sake.
   explicit DeviceFinder(Kernel& kernel, std::string dev_root = "/dev", std::string sys_root = "/sys");
 
-  /// All capture devices, by number.
-  std::vector<FoundDevice> list() const;
+  /// All capture devices, by number. `refused`, if given, gets why others could not be opened.
+  std::vector<FoundDevice> list(std::vector<std::string>* refused = nullptr) const;
 
   /// The device that `name` (/dev/videoN, a link to one, or a bus_info) means. Throws CaptureError that says
   /// what is connected instead.

@@ -51,6 +51,8 @@ class AttitudeFilter {
   bool update(const InertialSample& sample);
   void reset();
 
+  void forgetBias() { gyro_bias_.setZero(); }
+
   /// False until a first sample with a usable accelerometer (and magnetometer, where used) has come.
   bool initialised() const { return initialised_; }
   const Eigen::Quaterniond& q_world_imu() const { return q_world_imu_; }

@@ -17,6 +17,13 @@ namespace stereo_nav::imu {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// A rate that no module uses marks a terminal that nobody has configured.
+constexpr speed_t kUnconfigured_baud = 7;
+
+}  // namespace
+
 PseudoTerminal::PseudoTerminal() {
   fd_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   std::array<char, 128> name{};
@@ -29,6 +36,8 @@ PseudoTerminal::PseudoTerminal() {
   termios2 settings{};
   ioctl(fd_, TCGETS2, &settings);
   settings.c_iflag = settings.c_oflag = settings.c_lflag = 0;
+  settings.c_cflag = CS8 | CREAD | CLOCAL | BOTHER;
+  settings.c_ispeed = settings.c_ospeed = kUnconfigured_baud;
   ioctl(fd_, TCSETS2, &settings);
 }
 
@@ -43,6 +52,7 @@ PseudoTerminal::~PseudoTerminal() {
 void PseudoTerminal::link(const std::string& link_path) {
   std::error_code ignored;
   fs::remove(link_path, ignored);
+  if (fs::path(link_path).has_parent_path()) fs::create_directories(fs::path(link_path).parent_path());
   fs::create_symlink(path_, link_path);
   links_.push_back(link_path);
 }
@@ -57,9 +67,10 @@ std::size_t PseudoTerminal::write(const std::vector<std::uint8_t>& bytes) {
   return written;
 }
 
-int PseudoTerminal::baudRate() const {
+std::optional<int> PseudoTerminal::baudRate() const {
   termios2 settings{};
-  return ioctl(fd_, TCGETS2, &settings) == 0 ? static_cast<int>(settings.c_ospeed) : 0;
+  if (ioctl(fd_, TCGETS2, &settings) != 0 || settings.c_ospeed == kUnconfigured_baud) return std::nullopt;
+  return static_cast<int>(settings.c_ospeed);
 }
 
 }  // namespace stereo_nav::imu

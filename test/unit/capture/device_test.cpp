@@ -154,6 +154,13 @@ TEST_F(Device, FindsCamerasByPathByLinkAndByPort) {
   EXPECT_EQ(by_link.path, kernel_.path(10));
   EXPECT_EQ(by_link.stableName(), links / "pci-usb-2-video-index0");
 
+  kernel_.change(10, [](FakeCamera& camera) { camera.open_error = EACCES; });
+  std::vector<std::string> refused;
+  EXPECT_EQ(finder.list(&refused).size(), 1u);
+  ASSERT_EQ(refused.size(), 1u) << "the metadata node is not worth a word";
+  expectContains(refused[0], "usermod");
+  kernel_.change(10, [](FakeCamera& camera) { camera.open_error = 0; });
+
   expectContains(messageOf([&] { finder.find("usb-fake-3"); }), "connected: usb-fake-1, usb-fake-2");
   expectContains(messageOf([&] { finder.find(kernel_.path(2)); }), "does not capture video");
   expectContains(messageOf([&] { finder.find(""); }), "list_cameras");

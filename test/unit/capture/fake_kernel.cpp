@@ -111,15 +111,19 @@ std::int64_t FakeKernel::stampOf(const FakeCamera& camera, std::uint32_t sequenc
 
 Kernel::Ready FakeKernel::wait(int descriptor, int timeout_ms) {
   const std::int64_t until_ns = monotonicNow() + timeout_ms * 1'000'000LL;
+  std::int64_t due_ns = 0;
   do {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       const FakeCamera* camera = cameraOf(descriptor);
       if (camera == nullptr || camera->dequeue_error != 0) return Ready::Error;
-      const bool due = dueAt(*camera, camera->next_sequence) <= monotonicNow();
-      if (due && !camera->stalled && !camera->queued.empty()) return Ready::Frame;
+      due_ns = dueAt(*camera, camera->next_sequence);
+      if (due_ns <= monotonicNow() && !camera->stalled && !camera->queued.empty()) return Ready::Frame;
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    // Soon enough for the next frame, and for a fault that the test makes meanwhile.
+    constexpr std::int64_t kShortest_ns = 200'000, kLongest_ns = 2'000'000;
+    std::this_thread::sleep_for(
+        std::chrono::nanoseconds(std::clamp(due_ns - monotonicNow(), kShortest_ns, kLongest_ns)));
   } while (monotonicNow() < until_ns);
   return Ready::No;
 }
@@ -147,7 +151,7 @@ int FakeKernel::ioctl(int descriptor, unsigned long request, void* argument) {
     }
     case VIDIOC_QUERYBUF: {
       auto& buffer = *static_cast<v4l2_buffer*>(argument);
-      buffer.length = kBufferBytes;
+      buffer.length = static_cast<std::uint32_t>(std::max(kBufferBytes, camera->payload.size()));
       buffer.m.offset = buffer.index;
       return 0;
     }

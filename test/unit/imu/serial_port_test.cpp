@@ -47,6 +47,7 @@ TEST(SerialPort, BringsBytesAcrossUnchanged) {
 
 TEST(SerialPort, SetsAnyBaudRate) {
   PseudoTerminal terminal;
+  EXPECT_FALSE(terminal.baudRate().has_value());
   for (const int baud : {9600, 115200, 123456, 1000000}) {
     SerialPort port(terminal.path(), baud);
     EXPECT_EQ(terminal.baudRate(), baud);

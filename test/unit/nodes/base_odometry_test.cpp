@@ -156,7 +156,7 @@ TEST(Levelling, FromAttitudeAndFromAcceleration) {
   const Eigen::Matrix3d R_world_imu = R_world_base * R_base_imu;
 
   vo::RotationHistory attitudes, accelerations;
-  for (double time_s = 0.0; time_s < 1.05; time_s += 0.1) {
+  for (double time_s = 0.0; time_s < 1.15; time_s += 0.1) {
     vo::ImuSample sample;
     sample.time_s = time_s;
     // A heading of its own does not matter.

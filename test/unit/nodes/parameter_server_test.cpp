@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "stereo_nav/nodes/visual_odometry_params.h"
 
 namespace stereo_nav::ros_io {
@@ -30,6 +33,22 @@ TEST(ParameterServer, UnknownNamesAreRefused) {
   tree["bas_frame"] = "base_link";
   nodes::VisualOdometryParams params;
   EXPECT_THROW(stereo_nav::readParameters(toYaml(tree), "/visual_odometry", params), ParameterError);
+}
+
+TEST(VisualOdometryParams, AreDocumentedAsTheyAre) {
+  std::ifstream file(std::string(STEREO_NAV_SOURCE_DIR) + "/docs/visual_odometry.md");
+  std::stringstream page;
+  page << file.rdbuf();
+  for (const ParameterDoc& doc : documentParameters(nodes::VisualOdometryParams())) {
+    std::string name = doc.name;
+    for (auto& letter : name) letter = letter == '.' ? '/' : letter;
+    std::string range = doc.range;
+    for (std::size_t bar = range.find('|'); bar != std::string::npos; bar = range.find('|', bar + 1))
+      range[bar] = ',';
+    const std::string row = "| `" + name + "` | " + doc.type + " | " + doc.default_value + " | " + range +
+                            " | " + doc.unit + " | " + doc.doc + " |";
+    EXPECT_NE(page.str().find(row), std::string::npos) << row;
+  }
 }
 
 TEST(ParameterServer, ArraysKeepTheirOrder) {

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "stereo_nav/imu/calibration.h"
+#include "stereo_nav/imu/imu_device.h"
+#include "stereo_nav/imu/imu_estimator.h"
+
+namespace stereo_nav::nodes {
+
+/// Parameters of the imu_bridge node; those of the device stand beside them without a section.
+struct ImuBridgeParams {
+  std::string port = "/dev/ttyUSB0";
+  std::string by_id_directory = "/dev/serial/by-id";
+  std::string frame_id = "imu_link";
+  std::string calibration_file;
+  bool chatter = false;
+  double rate_window_s = 0.02;
+  double tilt_stddev_rad = 0.01;
+  double yaw_stddev_rad = 0.05;
+  double angular_velocity_stddev_rad_s = 0.02;
+  double linear_acceleration_stddev_m_s2 = 0.1;
+  imu::ImuDeviceParams device;
+  imu::AttitudeParams filter;
+  imu::GyroCalibrationParams gyro_calibration;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+/// A serial IMU module on ROS topics: imu/data, imu/data_raw (raw modules), imu_quat, chatter.
+///
+/// run() reads the module in the calling thread; services and diagnostics are answered by others.
+class ImuBridgeNode {
+ public:
+  /// Throws ParameterError.
+  ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  /// Until ROS shuts down.
+  void run();
+
+ private:
+  void publish(const imu::ImuReading& reading);
+  void publishAngles(const imu::ModuleAngles& angles);
+  ros::Time rosTime(double steady_s);
+  bool calibrateGyro(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool resetYaw(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void finishCalibration(const imu::GyroCalibrator::Result& result, std_srvs::Trigger::Response& response);
+  void fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void watch(const ros::WallTimerEvent& event);
+  void reportState();
+
+  ros::NodeHandle handle_, private_handle_;
+  ImuBridgeParams params_;
+  imu::ImuDevice device_;
+  ros::Publisher data_, data_raw_, quaternion_, chatter_;
+  ros::ServiceServer calibrate_gyro_, reset_yaw_;
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer watch_timer_;
+  ros::Time last_stamp_;
+
+  std::mutex mutex_;  ///< guards estimator and calibrator
+  std::condition_variable calibrated_;
+  imu::ImuEstimator estimator_;
+  std::optional<imu::GyroCalibrator> calibrator_;
+
+  imu::LinkState reported_state_ = imu::LinkState::kWaiting;
+  ros::WallTime reported_at_;
+  imu::DecoderCounters reported_counters_;
+};
+
+}  // namespace stereo_nav::nodes

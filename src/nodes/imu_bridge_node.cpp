@@ -1,0 +1,248 @@
+#include "stereo_nav/nodes/imu_bridge_node.h"
+
+#include <geometry_msgs/Quaternion.h>
+#include <sensor_msgs/Imu.h>
+#include <std_msgs/String.h>
+
+#include <chrono>
+#include <filesystem>
+#include <sstream>
+
+#include "stereo_nav/ros_io/parameter_server.h"
+#include "stereo_nav/ros_io/topics.h"
+
+namespace stereo_nav::nodes {
+namespace {
+
+constexpr double kRepeat_s = 10.0;
+/// Beyond the time of the measurement itself.
+constexpr double kCalibrationPatience_s = 5.0;
+using Covariance = boost::array<double, 9>;
+
+ImuBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
+  ImuBridgeParams params;
+  ros_io::readParameters(private_handle, {"diagnostic_period"}, params);
+  return params;
+}
+
+/// A file that does not exist yet is one that imu/calibrate_gyro will write.
+imu::ImuCalibration readCalibration(const std::string& path) {
+  if (path.empty() || !std::filesystem::exists(path)) return {};
+  return imu::loadCalibration(path);
+}
+
+void setDiagonal(Covariance& covariance, double xx, double yy, double zz) {
+  covariance = {xx, 0, 0, 0, yy, 0, 0, 0, zz};
+}
+
+/// As REP-145 and sensor_msgs/Imu mark a part that the module does not deliver.
+void setAbsent(Covariance& covariance) {
+  covariance.fill(0.0);
+  covariance[0] = -1.0;
+}
+
+geometry_msgs::Quaternion toMessage(const Eigen::Quaterniond& q) {
+  geometry_msgs::Quaternion message;
+  message.x = q.x();
+  message.y = q.y();
+  message.z = q.z();
+  message.w = q.w();
+  return message;
+}
+
+void fillVector(const std::optional<Eigen::Vector3d>& v, double stddev, geometry_msgs::Vector3& message,
+                Covariance& covariance) {
+  if (!v) return setAbsent(covariance);
+  message.x = v->x();
+  message.y = v->y();
+  message.z = v->z();
+  setDiagonal(covariance, stddev * stddev, stddev * stddev, stddev * stddev);
+}
+
+sensor_msgs::Imu toMessage(const imu::ImuEstimate& estimate, const ImuBridgeParams& params, ros::Time stamp) {
+  sensor_msgs::Imu message;
+  message.header.stamp = stamp;
+  message.header.frame_id = params.frame_id;
+  if (estimate.q_world_imu) {
+    message.orientation = toMessage(*estimate.q_world_imu);
+    const double tilt = params.tilt_stddev_rad * params.tilt_stddev_rad;
+    setDiagonal(message.orientation_covariance, tilt, tilt, params.yaw_stddev_rad * params.yaw_stddev_rad);
+  } else {
+    setAbsent(message.orientation_covariance);
+  }
+  fillVector(estimate.angular_velocity, params.angular_velocity_stddev_rad_s, message.angular_velocity,
+             message.angular_velocity_covariance);
+  fillVector(estimate.linear_acceleration, params.linear_acceleration_stddev_m_s2,
+             message.linear_acceleration, message.linear_acceleration_covariance);
+  return message;
+}
+
+}  // namespace
+
+ImuBridgeNode::ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle),
+      private_handle_(private_handle),
+      params_(readNodeParams(private_handle_)),
+      device_(params_.device, imu::PortFinder(params_.port, params_.by_id_directory)),
+      updater_(handle_, private_handle_),
+      estimator_(params_.filter, readCalibration(params_.calibration_file), params_.rate_window_s) {
+  data_ = handle_.advertise<sensor_msgs::Imu>(ros_io::topics::kImu, 100);
+  quaternion_ = handle_.advertise<geometry_msgs::Quaternion>(ros_io::topics::kImuQuaternion, 100);
+  if (params_.device.protocol == imu::Protocol::kRaw) {
+    data_raw_ = handle_.advertise<sensor_msgs::Imu>("imu/data_raw", 100);
+  }
+  if (params_.chatter) chatter_ = handle_.advertise<std_msgs::String>("chatter", 10);
+  calibrate_gyro_ = handle_.advertiseService("imu/calibrate_gyro", &ImuBridgeNode::calibrateGyro, this);
+  reset_yaw_ = handle_.advertiseService("imu/reset_yaw", &ImuBridgeNode::resetYaw, this);
+  updater_.setHardwareID(params_.port);
+  updater_.add("imu", this, &ImuBridgeNode::fillStatus);
+  watch_timer_ = handle_.createWallTimer(ros::WallDuration(0.5), &ImuBridgeNode::watch, this);
+}
+
+void ImuBridgeNode::run() {
+  constexpr double kPoll_s = 0.1;
+  while (ros::ok()) {
+    device_.poll(kPoll_s, [this](const imu::ImuReading& reading) { publish(reading); });
+  }
+  calibrated_.notify_all();
+}
+
+/// Stamps are made on the steady clock, which no clock synchronisation sets; the step to ROS time is measured
+/// anew for each.
+ros::Time ImuBridgeNode::rosTime(double steady_s) {
+  ros::Time stamp = ros::Time::now() - ros::Duration(imu::steadyNow_s() - steady_s);
+  const ros::Duration one_microsecond(0, 1000);
+  const bool clock_was_set_back = last_stamp_ - stamp > ros::Duration(1.0);
+  if (stamp <= last_stamp_ && !clock_was_set_back) stamp = last_stamp_ + one_microsecond;
+  last_stamp_ = stamp;
+  return stamp;
+}
+
+void ImuBridgeNode::publish(const imu::ImuReading& reading) {
+  imu::ImuEstimate estimate;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    estimate = estimator_.process(reading);
+    if (calibrator_ && reading.raw) {
+      calibrator_->add(reading.time_s, reading.raw->angular_velocity, reading.raw->linear_acceleration);
+      if (calibrator_->complete()) calibrated_.notify_all();
+    }
+  }
+  const ros::Time stamp = rosTime(reading.time_s);
+  data_.publish(toMessage(estimate, params_, stamp));
+  if (estimate.q_world_imu) quaternion_.publish(toMessage(*estimate.q_world_imu));
+  if (reading.raw) {
+    const imu::ImuEstimate raw{std::nullopt, reading.raw->angular_velocity, reading.raw->linear_acceleration};
+    data_raw_.publish(toMessage(raw, params_, stamp));
+  }
+  if (params_.chatter && reading.angles) publishAngles(*reading.angles);
+}
+
+void ImuBridgeNode::publishAngles(const imu::ModuleAngles& angles) {
+  std::ostringstream text;
+  text << "yaw: " << angles.yaw_deg << " pitch: " << angles.pitch_deg << " roll: " << angles.roll_deg;
+  std_msgs::String message;
+  message.data = text.str();
+  chatter_.publish(message);
+}
+
+bool ImuBridgeNode::calibrateGyro(std_srvs::Trigger::Request& /*request*/,
+                                  std_srvs::Trigger::Response& response) {
+  if (params_.device.protocol != imu::Protocol::kRaw) {
+    response.message =
+        "this module sends angles, not rates: it calibrates its gyroscope itself, when it is switched on at "
+        "rest";
+    return true;
+  }
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (calibrator_) {
+    response.message = "a calibration is running already";
+    return true;
+  }
+  calibrator_.emplace(params_.gyro_calibration);
+  const auto patience =
+      std::chrono::duration<double>(params_.gyro_calibration.duration_s + kCalibrationPatience_s);
+  calibrated_.wait_for(lock, patience, [this] { return calibrator_->complete() || !ros::ok(); });
+  finishCalibration(calibrator_->result(), response);
+  calibrator_.reset();
+  return true;
+}
+
+/// The mutex is held.
+void ImuBridgeNode::finishCalibration(const imu::GyroCalibrator::Result& result,
+                                      std_srvs::Trigger::Response& response) {
+  response.success = static_cast<unsigned char>(result.accepted);
+  response.message = result.message;
+  if (!result.accepted) return;
+  estimator_.setGyroBias(result.bias);
+  if (params_.calibration_file.empty()) {
+    response.message += "; used until this node ends (no calibration_file is set)";
+    return;
+  }
+  try {
+    imu::saveCalibration(estimator_.calibration(), params_.calibration_file);
+    response.message += "; stored in " + params_.calibration_file;
+  } catch (const std::exception& error) {
+    response.message += std::string("; used, but not stored: ") + error.what();
+  }
+}
+
+bool ImuBridgeNode::resetYaw(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  estimator_.resetYaw();
+  response.success = 1;
+  response.message = "the present heading is zero now";
+  return true;
+}
+
+void ImuBridgeNode::watch(const ros::WallTimerEvent& /*event*/) {
+  updater_.update();
+  reportState();
+}
+
+/// Says changes at once, and what is wrong again every ten seconds.
+void ImuBridgeNode::reportState() {
+  const imu::ImuDeviceStatus status = device_.status();
+  const bool good = status.state == imu::LinkState::kStreaming;
+  if (status.state == imu::LinkState::kWaiting) return;
+  const ros::WallTime now = ros::WallTime::now();
+  const bool changed = status.state != reported_state_;
+  if (!changed && (good || (now - reported_at_).toSec() < kRepeat_s)) return;
+  reported_state_ = status.state;
+  reported_at_ = now;
+  if (good) {
+    ROS_INFO_STREAM(params_.port << ": " << status.message);
+  } else {
+    ROS_ERROR_STREAM(params_.port << ": " << status.message);
+  }
+}
+
+void ImuBridgeNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using Level = diagnostic_msgs::DiagnosticStatus;
+  const imu::ImuDeviceStatus device = device_.status();
+  const auto bad = device.counters.bad_frames - reported_counters_.bad_frames;
+  const auto good = device.counters.frames - reported_counters_.frames;
+  reported_counters_ = device.counters;
+  if (device.state == imu::LinkState::kWaiting) {
+    status.summary(Level::WARN, device.message);
+  } else if (device.state != imu::LinkState::kStreaming) {
+    status.summary(Level::ERROR, device.message);
+  } else if (10 * bad > good) {
+    status.summary(Level::WARN,
+                   "more than a tenth of the frames are damaged: check cable, ground and baud rate");
+  } else {
+    status.summary(Level::OK, device.message);
+  }
+  status.add("port", params_.port);
+  status.add("rate (Hz)", device.rate_hz);
+  status.add("arrival jitter (ms)", 1e3 * device.arrival_jitter_s);
+  status.add("stamp jitter (ms)", 1e3 * device.stamp_jitter_s);
+  status.add("frames", device.counters.frames);
+  status.add("bad frames", device.counters.bad_frames);
+  status.add("lost frames", device.counters.lost_frames);
+  status.add("bytes", device.counters.bytes);
+  status.add("bytes skipped", device.counters.bytes_skipped);
+  status.add("connections", device.connections);
+}
+
+}  // namespace stereo_nav::nodes

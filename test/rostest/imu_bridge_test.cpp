@@ -1,0 +1,217 @@
+// imu_bridge nodes on emulated modules, started by imu_bridge.test.
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/Quaternion.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/Imu.h>
+#include <std_msgs/String.h>
+#include <std_srvs/Trigger.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "stereo_nav/imu/calibration.h"
+#include "stereo_nav/imu/module_angles.h"
+
+namespace stereo_nav::test {
+namespace {
+
+constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
+constexpr double kDegree = M_PI / 180.0;
+std::string ports_folder;
+
+/// One bridge's topics.
+class Bridge {
+ public:
+  explicit Bridge(const std::string& name) : handle_(name) {
+    data_ = handle_.subscribe<sensor_msgs::Imu>(
+        "imu/data", 10000, [this](const sensor_msgs::Imu::ConstPtr& m) { data.push_back(*m); });
+    raw_ = handle_.subscribe<sensor_msgs::Imu>(
+        "imu/data_raw", 10000, [this](const sensor_msgs::Imu::ConstPtr& m) { data_raw.push_back(*m); });
+    quaternion_ = handle_.subscribe<geometry_msgs::Quaternion>(
+        "imu_quat", 10000,
+        [this](const geometry_msgs::Quaternion::ConstPtr& m) { quaternions.push_back(*m); });
+    chatter_ = handle_.subscribe<std_msgs::String>(
+        "chatter", 100, [this](const std_msgs::String::ConstPtr& m) { texts.push_back(m->data); });
+    const std::string own = "/" + name + "/imu_bridge: imu";
+    diagnostics_ = handle_.subscribe<diagnostic_msgs::DiagnosticArray>(
+        "/diagnostics", 1000, [this, own](const diagnostic_msgs::DiagnosticArray::ConstPtr& m) {
+          for (const auto& status : m->status) {
+            if ("/" + status.name == own || status.name == own) diagnostics.push_back(status);
+          }
+        });
+  }
+
+  bool saidInDiagnostics(const std::string& part) const {
+    for (const auto& status : diagnostics) {
+      if (status.message.find(part) != std::string::npos) return true;
+    }
+    return false;
+  }
+
+  double lastValue(const std::string& key) const {
+    for (const auto& value : diagnostics.back().values) {
+      if (value.key == key) return std::stod(value.value);
+    }
+    return std::nan("");
+  }
+
+  std_srvs::Trigger::Response call(const std::string& service) {
+    std_srvs::Trigger trigger;
+    EXPECT_TRUE(ros::service::waitForService(handle_.resolveName(service), ros::Duration(kLongWait_s)));
+    EXPECT_TRUE(handle_.serviceClient<std_srvs::Trigger>(service).call(trigger));
+    return trigger.response;
+  }
+
+  std::vector<sensor_msgs::Imu> data, data_raw;
+  std::vector<geometry_msgs::Quaternion> quaternions;
+  std::vector<std::string> texts;
+  std::vector<diagnostic_msgs::DiagnosticStatus> diagnostics;
+
+ private:
+  ros::NodeHandle handle_;
+  ros::Subscriber data_, raw_, quaternion_, chatter_, diagnostics_;
+};
+
+bool waitUntil(const std::function<bool()>& condition) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kLongWait_s);
+  while (ros::ok() && !condition()) {
+    if (ros::WallTime::now() > end) return false;
+    ros::spinOnce();
+    ros::WallDuration(0.005).sleep();
+  }
+  return ros::ok();
+}
+
+Eigen::Quaterniond orientationOf(const sensor_msgs::Imu& message) {
+  const auto& q = message.orientation;
+  return {q.w, q.x, q.y, q.z};
+}
+
+TEST(ImuBridge, PublishesTheWorkedExampleInEveryForm) {
+  Bridge bridge("clean");
+  ASSERT_TRUE(waitUntil([&] { return bridge.data.size() > 300 && bridge.quaternions.size() > 300; }));
+  for (const auto& q : bridge.quaternions) {
+    EXPECT_NEAR(q.x, -0.0645, 1e-4);
+    EXPECT_NEAR(q.y, -0.0729, 1e-4);
+    EXPECT_NEAR(q.z, -0.2613, 1e-4);
+    EXPECT_NEAR(q.w, 0.9604, 1e-4);
+  }
+  const sensor_msgs::Imu& message = bridge.data.back();
+  EXPECT_EQ(message.header.frame_id, "imu_link");
+  EXPECT_NEAR(message.orientation.z, -0.2613, 1e-4);
+  EXPECT_GT(message.orientation_covariance[8], 0.0);
+  EXPECT_NEAR(message.angular_velocity.z, 0.0, 1e-6);
+  EXPECT_GT(message.angular_velocity_covariance[0], 0.0);
+  EXPECT_EQ(message.linear_acceleration_covariance[0], -1.0) << "the module does not measure it";
+  for (std::size_t i = 1; i < bridge.data.size(); ++i) {
+    ASSERT_GT(bridge.data[i].header.stamp, bridge.data[i - 1].header.stamp);
+  }
+  ASSERT_TRUE(waitUntil([&] { return !bridge.texts.empty(); }));
+  EXPECT_NE(bridge.texts.back().find("yaw: 30"), std::string::npos) << bridge.texts.back();
+  ASSERT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("streaming"); }));
+  ASSERT_TRUE(waitUntil([&] { return bridge.lastValue("rate (Hz)") > 0.0; }));
+  EXPECT_NEAR(bridge.lastValue("rate (Hz)"), 100.0, 5.0);
+  EXPECT_EQ(bridge.lastValue("bad frames"), 0.0);
+}
+
+TEST(ImuBridge, ResetsTheYawAndRefusesToCalibrateTheAngleModule) {
+  Bridge bridge("clean");
+  ASSERT_TRUE(waitUntil([&] { return !bridge.data.empty(); }));
+  EXPECT_TRUE(bridge.call("imu/reset_yaw").success);
+  ASSERT_TRUE(waitUntil([&] { return std::abs(imu::heading(orientationOf(bridge.data.back()))) < 1e-6; }));
+  const auto refusal = bridge.call("imu/calibrate_gyro");
+  EXPECT_FALSE(refusal.success);
+  EXPECT_NE(refusal.message.find("angles"), std::string::npos);
+}
+
+TEST(ImuBridge, TurnsTheRightWayAcrossTheWrapOnADamagedLine) {
+  Bridge bridge("turning");
+  ASSERT_TRUE(waitUntil([&] { return bridge.data.size() > 1000; }));
+  double turned_deg = 0.0;
+  for (std::size_t i = 1; i < bridge.data.size(); ++i) {
+    const double step =
+        imu::heading(orientationOf(bridge.data[i]) * orientationOf(bridge.data[i - 1]).conjugate()) / kDegree;
+    EXPECT_LT(std::abs(step), 5.0);
+    turned_deg += step;
+  }
+  const double duration_s = (bridge.data.back().header.stamp - bridge.data.front().header.stamp).toSec();
+  // The module's yaw grows clockwise.
+  EXPECT_NEAR(turned_deg / duration_s, -20.0, 1.0);
+  double rate = 0.0;
+  for (const auto& message : bridge.data)
+    rate += message.angular_velocity.z / static_cast<double>(bridge.data.size());
+  EXPECT_NEAR(rate / kDegree, -20.0, 1.0);
+  ASSERT_TRUE(waitUntil([&] { return !bridge.diagnostics.empty(); }));
+  EXPECT_GT(bridge.lastValue("bad frames"), 0.0);
+}
+
+TEST(ImuBridge, FindsAModuleAgainUnderAnotherIndex) {
+  Bridge bridge("replugged");
+  ASSERT_TRUE(
+      waitUntil([&] { return !bridge.diagnostics.empty() && bridge.lastValue("connections") >= 2.0; }));
+  bridge.data.clear();
+  EXPECT_TRUE(waitUntil([&] { return bridge.data.size() > 100; }));
+}
+
+TEST(ImuBridge, SaysThatAModuleIsSilentAndGoesOnWithIt) {
+  Bridge bridge("pausing");
+  // By the time this test runs the pause may be over; the log keeps what was said of it.
+  const auto resumed = [&] {
+    return bridge.data.size() > 100 && !bridge.diagnostics.empty() && bridge.lastValue("frames") > 700.0;
+  };
+  ASSERT_TRUE(waitUntil(resumed));
+  EXPECT_EQ(bridge.lastValue("connections"), 1.0);
+  EXPECT_EQ(bridge.diagnostics.back().level, diagnostic_msgs::DiagnosticStatus::OK);
+}
+
+TEST(ImuBridge, WrongBaudRateIsNamed) {
+  Bridge bridge("wrong_baud");
+  EXPECT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("check the baud rate (57600 here)"); }));
+  EXPECT_TRUE(bridge.data.empty());
+}
+
+TEST(ImuBridge, AMissingPortIsNamed) {
+  Bridge bridge("missing");
+  EXPECT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("nothing_here does not exist"); }));
+}
+
+TEST(ImuBridge, CalibratesARawModuleAndStoresIt) {
+  Bridge bridge("raw");
+  ASSERT_TRUE(waitUntil([&] { return bridge.data.size() > 100 && bridge.data_raw.size() > 100; }));
+  const sensor_msgs::Imu& raw = bridge.data_raw.back();
+  EXPECT_EQ(raw.orientation_covariance[0], -1.0);
+  EXPECT_NEAR(raw.angular_velocity.z, 0.03, 0.01);
+  EXPECT_NEAR(raw.linear_acceleration.z, 9.80665, 1e-3);
+  EXPECT_GT(bridge.data.back().orientation_covariance[0], 0.0);
+
+  const auto answer = bridge.call("imu/calibrate_gyro");
+  ASSERT_TRUE(answer.success) << answer.message;
+  const auto stored = imu::loadCalibration(ports_folder + "/calibration.yaml");
+  EXPECT_LT((stored.gyroscope_bias.value - Eigen::Vector3d(0.02, -0.01, 0.03)).norm(), 5e-4);
+
+  ros::WallDuration(0.5).sleep();
+  ros::spinOnce();
+  bridge.data.clear();
+  ASSERT_TRUE(waitUntil([&] { return bridge.data.size() > 400; }));
+  double mean = 0.0;
+  for (const auto& message : bridge.data)
+    mean += message.angular_velocity.z / static_cast<double>(bridge.data.size());
+  EXPECT_NEAR(mean, 0.0, 1e-3);
+  const double turned =
+      imu::heading(orientationOf(bridge.data.back())) - imu::heading(orientationOf(bridge.data.front()));
+  EXPECT_NEAR(turned, 0.0, 0.01) << "0.06 without the calibration";
+}
+
+}  // namespace
+}  // namespace stereo_nav::test
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "imu_bridge_test");
+  stereo_nav::test::ports_folder = argv[1];
+  ros::NodeHandle handle;  // keeps the node alive between tests
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,87 @@
+#include "stereo_nav/sim/scenario.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "sim_test_support.h"
+#include "stereo_nav/params/parameters.h"
+
+namespace stereo_nav::sim {
+namespace {
+
+std::string write(const std::string& text) {
+  const std::string path = testing::TempDir() + "scenario.yaml";
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string messageOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    loadScenario(write(text), overrides);
+  } catch (const ParameterError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Scenario, ListsSectionsAndOverrides) {
+  const Scenario scenario = loadScenario(write("path:\n"
+                                               "  - {x_m: 1, y_m: 2}\n"
+                                               "  - {action: wait, duration_s: 3}\n"
+                                               "objects:\n"
+                                               "  - {shape: cylinder, x_m: 4, material: {texture: wood}}\n"
+                                               "timing: {skew_ms: 5}\n"),
+                                         {"timing.jitter_ms=2", "imu.kind=raw", "timing.skew_ms=6"});
+  ASSERT_EQ(scenario.path.size(), 2u);
+  EXPECT_EQ(scenario.path[1].action, PathStep::Action::kWait);
+  ASSERT_EQ(scenario.scene.objects.size(), 1u);
+  EXPECT_EQ(scenario.scene.objects[0].material.texture, TextureKind::kWood);
+  EXPECT_EQ(scenario.timing.skew_ms, 6.0);
+  EXPECT_EQ(scenario.timing.jitter_ms, 2.0);
+  EXPECT_EQ(scenario.imu.kind, ImuKind::kRaw);
+}
+
+TEST(Scenario, MessagesNameTheItem) {
+  EXPECT_NE(messageOf("path:\n  - {x: 1}\n").find("path[0]: unknown parameter x"), std::string::npos);
+  EXPECT_NE(messageOf("objects: {x_m: 1}\n").find("objects must be a list"), std::string::npos);
+  EXPECT_NE(messageOf("weather: rain\n").find("unknown parameter weather"), std::string::npos);
+  EXPECT_NE(messageOf("", {"timing.rate_hz=0"}).find("timing.rate_hz is 0"), std::string::npos);
+  EXPECT_NE(messageOf("", {"rate"}).find("must look like"), std::string::npos);
+}
+
+TEST(Scenario, AllThatAreShippedCanBeDriven) {
+  std::size_t scenarios = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(STEREO_NAV_SOURCE_DIR "/config/scenarios")) {
+    const Simulation simulation(loadScenario(entry.path().string()), thesisRig(), 1);
+    EXPECT_GT(simulation.duration_s(), 5.0) << entry.path();
+    EXPECT_GT(simulation.pairs().size(), 100u) << entry.path();
+    // The robot never drives through an object: nothing is nearer to the camera than 0.2 m.
+    const Scene scene(simulation.scenario().scene);
+    for (double time_s = 0.0; time_s < simulation.duration_s(); time_s += 0.5) {
+      const Eigen::Isometry3d T = simulation.cameraPose(Side::kLeft, time_s);
+      EXPECT_GT(scene.castRay(T.translation(), T.linear().col(2), time_s), 0.2)
+          << entry.path() << " at " << time_s;
+    }
+    ++scenarios;
+  }
+  EXPECT_GE(scenarios, 9u);
+}
+
+TEST(Scenario, LampsFailAndLensesAreCovered) {
+  const Simulation dark(loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/dark.yaml"), thesisRig(), 1);
+  const auto brightness = [](const Simulation& simulation, Side side, double time_s) {
+    return cv::mean(simulation.image(side, static_cast<std::size_t>(time_s * 30.0)))[0];
+  };
+  EXPECT_GT(brightness(dark, Side::kLeft, 2.0), 50.0);
+  EXPECT_LT(brightness(dark, Side::kLeft, 14.0), 5.0);
+  const Simulation blocked(loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/blocked.yaml"), thesisRig(),
+                           1);
+  EXPECT_LT(brightness(blocked, Side::kRight, 5.0), 15.0);
+  EXPECT_GT(brightness(blocked, Side::kLeft, 5.0), 50.0);
+  EXPECT_LT(brightness(blocked, Side::kLeft, 15.0), 15.0);
+}
+
+}  // namespace
+}  // namespace stereo_nav::sim
