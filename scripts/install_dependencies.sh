@@ -3,7 +3,7 @@
 #
 #   scripts/install_dependencies.sh [GROUP...]
 #
-# GROUP: build (what building and running needs, the default), test. The lists are in scripts/dependencies/.
+# GROUP: build (what building and running needs, the default), test, experiments. The lists are in scripts/dependencies/.
 # Says nothing and needs no network when everything is there.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
@@ -11,7 +11,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
 groups=("$@")
 [[ $# -gt 0 ]] || groups=(build)
 for group in "${groups[@]}"; do
-  [[ $group == build || $group == test ]] || die "unknown group '$group': build or test"
+  [[ $group == build || $group == test || $group == experiments ]] || die "unknown group '$group': build, test or experiments"
 done
 
 source /etc/os-release

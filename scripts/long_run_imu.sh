@@ -13,7 +13,12 @@ build=${2:-$root/build}
 bin=$build/devel/lib/stereo_nav
 work=$(mktemp -d)
 pids=()
-trap 'for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done; rm -rf "$work"' EXIT
+clean_up() {
+  local pid
+  for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null || true; done
+  rm -rf "$work"
+}
+trap clean_up EXIT
 
 # start NAME READER_SECONDS EMULATOR_OPTION... -- READER_OPTION...
 start() {

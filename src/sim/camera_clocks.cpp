@@ -38,7 +38,8 @@ std::vector<PairInstants> pairInstants(const TimingParams& timing, double durati
   const auto images = static_cast<std::uint64_t>(std::floor(duration_s * timing.rate_hz)) + 1;
   for (std::uint64_t i = 0; i < images; ++i) {
     left_s.push_back(static_cast<double>(i) * period_s + jitter(timing, seed, kLeftJitter, i));
-    right_s.push_back(right_start_s + static_cast<double>(i) * right_period_s + jitter(timing, seed, kRightJitter, i));
+    right_s.push_back(right_start_s + static_cast<double>(i) * right_period_s +
+                      jitter(timing, seed, kRightJitter, i));
   }
 
   std::vector<PairInstants> pairs;
@@ -58,11 +59,13 @@ std::vector<PairInstants> pairInstants(const TimingParams& timing, double durati
 
 void TimingParams::describe(ParameterVisitor& visitor) {
   visitor.real("rate_hz", rate_hz, {0.1, 1000.0}, "Hz", "images per second of each camera");
-  visitor.real("skew_ms", skew_ms, {-500.0, 500.0}, "ms", "the right image is taken this much after the left");
+  visitor.real("skew_ms", skew_ms, {-500.0, 500.0}, "ms",
+               "the right image is taken this much after the left");
   visitor.real("jitter_ms", jitter_ms, {0.0, 100.0}, "ms", "standard deviation of each image's instant");
   visitor.flag("free_running", free_running,
                "the right camera starts at a random moment and its clock runs at its own rate");
-  visitor.real("clock_ppm", clock_ppm, {-10000.0, 10000.0}, "ppm", "free running: the right camera's period is longer by this");
+  visitor.real("clock_ppm", clock_ppm, {-10000.0, 10000.0}, "ppm",
+               "free running: the right camera's period is longer by this");
 }
 
 }  // namespace stereo_nav::sim

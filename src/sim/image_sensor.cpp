@@ -9,8 +9,8 @@
 namespace stereo_nav::sim {
 namespace {
 
-/// Standard normal draws, precomputed: a pixel's random bits select one. Each has its mirror image in the table,
-/// so that the mean is 0 exactly.
+/// Standard normal draws, precomputed: a pixel's random bits select one. Each has its mirror image in the
+/// table, so that the mean is 0 exactly.
 constexpr std::size_t kTableSize = 4096;
 
 const std::array<float, kTableSize>& normalTable() {
@@ -67,12 +67,14 @@ void SensorParams::describe(ParameterVisitor& visitor) {
   visitor.real("rolling_shutter_ms", rolling_shutter_ms, {0.0, 100.0}, "ms",
                "from the first row's exposure to the last one's; 0 is a global shutter");
   visitor.real("read_noise", read_noise, {0.0, 50.0}, "grey levels", "standard deviation in the dark");
-  visitor.real("shot_noise", shot_noise, {0.0, 5.0}, "grey levels", "standard deviation at grey level 1; grows with the root");
+  visitor.real("shot_noise", shot_noise, {0.0, 5.0}, "grey levels",
+               "standard deviation at grey level 1; grows with the root");
   visitor.real("vignetting", vignetting, {0.0, 1.0}, "", "light lost in the corners");
 }
 
 void CameraResponse::describe(ParameterVisitor& visitor) {
-  visitor.real("gain", gain, {0.0, 10.0}, "", "factor on the light; 1 shows a material's brightness as it is");
+  visitor.real("gain", gain, {0.0, 10.0}, "",
+               "factor on the light; 1 shows a material's brightness as it is");
   visitor.real("offset", offset, {-100.0, 100.0}, "grey levels", "black level");
 }
 

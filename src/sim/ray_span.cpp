@@ -65,8 +65,8 @@ float fastLog2(float value) {
   return static_cast<float>(bits) * 0x1.0p-23f - 127.0f;
 }
 
-/// Where and on which face a solid was hit: coordinates on the surface in metres, and along which of the solid's
-/// directions they run.
+/// Where and on which face a solid was hit: coordinates on the surface in metres, and along which of the
+/// solid's directions they run.
 struct SurfacePoint {
   const Surface* surface;
   float u, v;
@@ -106,15 +106,21 @@ struct Taps {
   float step_u, step_v;
 };
 
-/// The footprint of a sample on a slanted surface is an ellipse: its short axis sets the level, taps are strung
-/// along its long axis, which lies where the ray falls onto the surface.
+/// The footprint of a sample on a slanted surface is an ellipse: its short axis sets the level, taps are
+/// strung along its long axis, which lies where the ray falls onto the surface.
 Taps planTaps(const SurfacePoint& point, const Eigen::Vector3f& p, const Eigen::Vector3f& d, float depth,
               const Footprint& footprint) {
   float normal, along_u, along_v;
   switch (point.normal_axis) {
-    case 0: normal = d.x(), along_u = d.y(), along_v = d.z(); break;
-    case 1: normal = d.y(), along_u = d.x(), along_v = d.z(); break;
-    case 2: normal = d.z(), along_u = d.x(), along_v = d.y(); break;
+    case 0:
+      normal = d.x(), along_u = d.y(), along_v = d.z();
+      break;
+    case 1:
+      normal = d.y(), along_u = d.x(), along_v = d.z();
+      break;
+    case 2:
+      normal = d.z(), along_u = d.x(), along_v = d.y();
+      break;
     default: {
       const float inverse_radius = 1.0f / p.head<2>().norm();
       normal = (d.x() * p.x() + d.y() * p.y()) * inverse_radius;
@@ -173,7 +179,8 @@ void castSpan(const Candidate& candidate, int index, RaySpan& span) {
     std::copy(hits.far, hits.far + kLength, hits.near);
   }
   for (int i = 0; i < kLength; ++i) {
-    const bool nearer = (hits.near[i] <= hits.far[i]) & (hits.near[i] > 0.0f) & (hits.near[i] < span.depth[i]);
+    const bool nearer =
+        (hits.near[i] <= hits.far[i]) & (hits.near[i] > 0.0f) & (hits.near[i] < span.depth[i]);
     span.depth[i] = nearer ? hits.near[i] : span.depth[i];
     span.hit[i] = nearer ? index : span.hit[i];
   }
@@ -185,8 +192,8 @@ float farthestDepth(const RaySpan& span) {
   return farthest;
 }
 
-void shadeSpan(const std::vector<Candidate>& candidates, const RaySpan& span, int count, const Footprint& footprint,
-               float weight, float* out) {
+void shadeSpan(const std::vector<Candidate>& candidates, const RaySpan& span, int count,
+               const Footprint& footprint, float weight, float* out) {
   // Footprints change slowly: one plan serves a run of neighbours on the same face.
   constexpr int kRun = 8;
   Taps taps{};

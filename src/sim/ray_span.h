@@ -39,7 +39,7 @@ struct Footprint {
 };
 
 /// Adds `weight` times the light that comes back along the first `count` rays of the span to `out`.
-void shadeSpan(const std::vector<Candidate>& candidates, const RaySpan& span, int count, const Footprint& footprint,
-               float weight, float* out);
+void shadeSpan(const std::vector<Candidate>& candidates, const RaySpan& span, int count,
+               const Footprint& footprint, float weight, float* out);
 
 }  // namespace stereo_nav::sim

@@ -33,7 +33,8 @@ Renderer::Renderer(const Scene& scene, const CameraCalibration& calibration, int
       ray_pitch_(static_cast<float>(1.0 / calibration.K(0, 0))) {
   static_assert(kTile == RaySpan::kLength, "a tile's row is cast as one span");
   if (samples < 1 || samples > 16) {
-    throw std::invalid_argument("renderer: samples per pixel is " + std::to_string(samples) + ", allowed is 1 to 16");
+    throw std::invalid_argument("renderer: samples per pixel is " + std::to_string(samples) +
+                                ", allowed is 1 to 16");
   }
   computeRays(calibration);
   computeTileBounds();
@@ -88,7 +89,8 @@ cv::Mat Renderer::render(const CameraPath& T_world_camera, const Shutter& shutte
         for (int sample = 0; sample < samples_; ++sample) {
           const auto rays = static_cast<std::size_t>((sample * height_ + row) * stride_ + left);
           const RaySpan span = frame.cast(ray_x_.data() + rays, ray_y_.data() + rays, row, sample);
-          const Footprint footprint{ray_pitch_, (static_cast<float>(sample) + 0.5f) / static_cast<float>(samples_)};
+          const Footprint footprint{ray_pitch_,
+                                    (static_cast<float>(sample) + 0.5f) / static_cast<float>(samples_)};
           shadeSpan(frame.candidates(row, sample), span, std::min(kTile, width_ - left), footprint,
                     1.0f / static_cast<float>(samples_), light.ptr<float>(row) + left);
         }

@@ -54,8 +54,10 @@ void Event::describe(ParameterVisitor& visitor) {
 }
 
 void RigParams::describe(ParameterVisitor& visitor) {
-  visitor.integer("image_scale", image_scale, {1, 8}, "", "pixels of the calibration are divided into this many in each direction");
-  visitor.integer("samples_per_pixel", samples_per_pixel, {1, 16}, "", "rays per pixel, spread over its area and the exposure");
+  visitor.integer("image_scale", image_scale, {1, 8}, "",
+                  "pixels of the calibration are divided into this many in each direction");
+  visitor.integer("samples_per_pixel", samples_per_pixel, {1, 16}, "",
+                  "rays per pixel, spread over its area and the exposure");
   visitor.real("camera_x_m", camera_x_m, {-5.0, 5.0}, "m", "left camera, forward of base_link");
   visitor.real("camera_y_m", camera_y_m, {-5.0, 5.0}, "m", "left camera, left of base_link");
   visitor.real("camera_z_m", camera_z_m, {0.01, 5.0}, "m", "left camera, above the floor");
@@ -67,7 +69,8 @@ Eigen::Isometry3d RigParams::T_base_camera() const {
   R_forward_optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation() << camera_x_m, camera_y_m, camera_z_m;
-  T.linear() = Eigen::AngleAxisd(camera_pitch_deg * M_PI / 180.0, Eigen::Vector3d::UnitY()) * R_forward_optical;
+  T.linear() =
+      Eigen::AngleAxisd(camera_pitch_deg * M_PI / 180.0, Eigen::Vector3d::UnitY()) * R_forward_optical;
   return T;
 }
 

@@ -20,7 +20,9 @@ Interval slab(double origin, double direction, double half) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-Interval intersect(Interval a, Interval b) { return {std::max(a.near, b.near), std::min(a.far, b.far)}; }
+Interval intersect(Interval a, Interval b) {
+  return {std::max(a.near, b.near), std::min(a.far, b.far)};
+}
 
 Interval cylinderSide(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double radius) {
   const double a = direction.head<2>().squaredNorm(), b = origin.head<2>().dot(direction.head<2>());
@@ -63,9 +65,11 @@ Surface Scene::makeSurface(const Material& material, std::uint64_t instance) {
 void Scene::addRoom(const RoomParams& room) {
   Solid solid;
   solid.kind = Solid::Kind::kRoom;
-  solid.p_world = {0.5 * (room.x_min_m + room.x_max_m), 0.5 * (room.y_min_m + room.y_max_m), 0.5 * room.height_m};
+  solid.p_world = {0.5 * (room.x_min_m + room.x_max_m), 0.5 * (room.y_min_m + room.y_max_m),
+                   0.5 * room.height_m};
   solid.half = {static_cast<float>(0.5 * (room.x_max_m - room.x_min_m)),
-                static_cast<float>(0.5 * (room.y_max_m - room.y_min_m)), static_cast<float>(0.5 * room.height_m)};
+                static_cast<float>(0.5 * (room.y_max_m - room.y_min_m)),
+                static_cast<float>(0.5 * room.height_m)};
   solid.inverse_half = solid.half.cwiseInverse();
   solid.sides = makeSurface(room.walls, 1);
   solid.floor = makeSurface(room.floor, 2);
@@ -78,7 +82,8 @@ void Scene::addObject(const ObjectParams& object) {
   const bool box = object.shape == Shape::kBox;
   solid.kind = box ? Solid::Kind::kBox : Solid::Kind::kCylinder;
   solid.p_world = {object.x_m, object.y_m, object.bottom_m + 0.5 * object.height_m};
-  solid.R_solid_world = Eigen::AngleAxisd(-object.yaw_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  solid.R_solid_world =
+      Eigen::AngleAxisd(-object.yaw_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   solid.half = {static_cast<float>(0.5 * object.length_m),
                 static_cast<float>(0.5 * (box ? object.width_m : object.length_m)),
                 static_cast<float>(0.5 * object.height_m)};

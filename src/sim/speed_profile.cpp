@@ -7,12 +7,13 @@ namespace stereo_nav::sim {
 namespace {
 
 /// Speeds at points of the curve that respect the limits in both directions of travel.
-std::vector<double> limitedSpeeds(double step_m, std::size_t points, const std::function<double(double)>& curvature,
-                                  const SpeedLimits& limits) {
+std::vector<double> limitedSpeeds(double step_m, std::size_t points,
+                                  const std::function<double(double)>& curvature, const SpeedLimits& limits) {
   std::vector<double> speeds;
   for (std::size_t i = 0; i < points; ++i) {
     const double arc = step_m * static_cast<double>(i);
-    const double wavering = 1.0 + limits.variation * (0.6 * std::sin(2.3 * arc) + 0.4 * std::sin(5.9 * arc + 1.0));
+    const double wavering =
+        1.0 + limits.variation * (0.6 * std::sin(2.3 * arc) + 0.4 * std::sin(5.9 * arc + 1.0));
     const double in_curve = limits.yaw_rate_rps / std::max(std::fabs(curvature(arc)), 1e-6);
     speeds.push_back(std::min(limits.speed_mps * wavering, in_curve));
   }
@@ -36,7 +37,8 @@ std::vector<double> spread(const std::vector<double>& values, std::size_t width)
 
 }  // namespace
 
-SpeedProfile::SpeedProfile(double length_m, const std::function<double(double)>& curvature, const SpeedLimits& limits) {
+SpeedProfile::SpeedProfile(double length_m, const std::function<double(double)>& curvature,
+                           const SpeedLimits& limits) {
   const std::size_t points = static_cast<std::size_t>(std::ceil(length_m / 0.005)) + 1;
   const double step_m = length_m / static_cast<double>(points - 1);
   const std::vector<double> speeds = limitedSpeeds(step_m, points, curvature, limits);
@@ -69,7 +71,9 @@ SpeedProfile::SpeedProfile(double length_m, const std::function<double(double)>&
   speed_mps_.back() = 0.0;
 }
 
-double SpeedProfile::duration_s() const { return kStep_s * static_cast<double>(arc_m_.size() - 1); }
+double SpeedProfile::duration_s() const {
+  return kStep_s * static_cast<double>(arc_m_.size() - 1);
+}
 
 double SpeedProfile::arc_m(double time_s) const {
   const double at = std::clamp(time_s, 0.0, duration_s()) / kStep_s;

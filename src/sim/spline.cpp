@@ -7,8 +7,8 @@
 namespace stereo_nav::sim {
 namespace {
 
-/// Second derivatives at the knots of the C2 spline: first derivative given at the start, second derivative zero
-/// at the end. Thomas' algorithm on the tridiagonal system.
+/// Second derivatives at the knots of the C2 spline: first derivative given at the start, second derivative
+/// zero at the end. Thomas' algorithm on the tridiagonal system.
 std::vector<Eigen::Vector2d> solveSecondDerivatives(const std::vector<double>& knots,
                                                     const std::vector<Eigen::Vector2d>& points,
                                                     const Eigen::Vector2d& start_slope) {
@@ -74,7 +74,8 @@ PlanarSpline::Derivatives PlanarSpline::evaluate(double parameter) const {
   const Eigen::Vector2d &m0 = second_derivatives_[i], &m1 = second_derivatives_[i + 1];
   Derivatives d;
   d.value = a * points_[i] + b * points_[i + 1] + h * h / 6.0 * ((a * a * a - a) * m0 + (b * b * b - b) * m1);
-  d.first = (points_[i + 1] - points_[i]) / h + h / 6.0 * ((3.0 * b * b - 1.0) * m1 - (3.0 * a * a - 1.0) * m0);
+  d.first =
+      (points_[i + 1] - points_[i]) / h + h / 6.0 * ((3.0 * b * b - 1.0) * m1 - (3.0 * a * a - 1.0) * m0);
   d.second = a * m0 + b * m1;
   return d;
 }
@@ -83,16 +84,17 @@ double PlanarSpline::parameterOf(double arc_m) const {
   const auto after = std::upper_bound(arc_m_.begin() + 1, arc_m_.end() - 1, arc_m);
   const auto i = static_cast<std::size_t>(after - arc_m_.begin()) - 1;
   const double h = arc_m_[i + 1] - arc_m_[i];
-  return hermite(std::clamp(arc_m - arc_m_[i], 0.0, h), h, parameter_[i], 1.0 / evaluate(parameter_[i]).first.norm(),
-                 parameter_[i + 1], 1.0 / evaluate(parameter_[i + 1]).first.norm());
+  return hermite(std::clamp(arc_m - arc_m_[i], 0.0, h), h, parameter_[i],
+                 1.0 / evaluate(parameter_[i]).first.norm(), parameter_[i + 1],
+                 1.0 / evaluate(parameter_[i + 1]).first.norm());
 }
 
 double PlanarSpline::arcOfPoint(std::size_t index) const {
   const auto after = std::upper_bound(parameter_.begin() + 1, parameter_.end() - 1, knots_[index]);
   const auto i = static_cast<std::size_t>(after - parameter_.begin()) - 1;
   const double h = parameter_[i + 1] - parameter_[i];
-  return hermite(knots_[index] - parameter_[i], h, arc_m_[i], evaluate(parameter_[i]).first.norm(), arc_m_[i + 1],
-                 evaluate(parameter_[i + 1]).first.norm());
+  return hermite(knots_[index] - parameter_[i], h, arc_m_[i], evaluate(parameter_[i]).first.norm(),
+                 arc_m_[i + 1], evaluate(parameter_[i + 1]).first.norm());
 }
 
 PlanarSpline::Sample PlanarSpline::at(double arc_m) const {

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kSize = Texture::kSize;
 
-/// 1/f noise that repeats: octaves of random grids, each half the wavelength and half the amplitude of the last.
+/// 1/f noise that repeats: octaves of random grids, each half the wavelength and half the amplitude of the
+/// last.
 cv::Mat fractalNoise(RandomStream& random, int coarsest_cells, int finest_cells) {
   cv::Mat sum = cv::Mat::zeros(kSize, kSize, CV_32FC1);
   float amplitude = 1.0f;
@@ -50,7 +51,8 @@ void fillQuad(cv::Mat& canvas, cv::Point2f centre, cv::Size2f size, float angle_
 
 void fillDisc(cv::Mat& canvas, cv::Point2f centre, float radius, double grey) {
   paintWrapped(canvas, [&](cv::Mat& image, cv::Point2f shift) {
-    cv::circle(image, centre + shift, std::max(1, cvRound(radius)), cv::Scalar(grey), cv::FILLED, cv::LINE_AA);
+    cv::circle(image, centre + shift, std::max(1, cvRound(radius)), cv::Scalar(grey), cv::FILLED,
+               cv::LINE_AA);
   });
 }
 
@@ -84,7 +86,8 @@ void paintLeaves(cv::Mat& canvas, RandomStream& random, const LeafStyle& style) 
       const float aspect = float(random.uniform(1.0, style.largest_aspect));
       const cv::Size2f size(2 * radius * aspect, 2 * radius / aspect);
       const bool upright = random.uniform(0, 1) < 0.5;
-      fillQuad(canvas, centre, size, float((upright ? 90.0 : 0.0) + style.tilt_sigma_deg * random.normal()), grey);
+      fillQuad(canvas, centre, size, float((upright ? 90.0 : 0.0) + style.tilt_sigma_deg * random.normal()),
+               grey);
     }
   }
 }
@@ -108,7 +111,8 @@ void paintWindow(cv::Mat& canvas) {
   canvas.setTo(60);
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
-      fillQuad(canvas, {128.0f + 256.0f * float(column), 128.0f + 256.0f * float(row)}, {228, 228}, 0.0f, 225);
+      fillQuad(canvas, {128.0f + 256.0f * float(column), 128.0f + 256.0f * float(row)}, {228, 228}, 0.0f,
+               225);
     }
   }
 }
@@ -173,9 +177,9 @@ cv::Mat paintTexture(TextureKind kind, std::uint64_t seed) {
 
 const std::vector<std::pair<std::string, TextureKind>>& textureNames() {
   static const std::vector<std::pair<std::string, TextureKind>> names = {
-      {"plain", TextureKind::kPlain},     {"floor", TextureKind::kFloor},   {"wood", TextureKind::kWood},
-      {"tiles", TextureKind::kTiles},     {"clutter", TextureKind::kClutter}, {"cloth", TextureKind::kCloth},
-      {"window", TextureKind::kWindow},   {"checker", TextureKind::kChecker}};
+      {"plain", TextureKind::kPlain},   {"floor", TextureKind::kFloor},     {"wood", TextureKind::kWood},
+      {"tiles", TextureKind::kTiles},   {"clutter", TextureKind::kClutter}, {"cloth", TextureKind::kCloth},
+      {"window", TextureKind::kWindow}, {"checker", TextureKind::kChecker}};
   return names;
 }
 

@@ -17,7 +17,9 @@ struct PlanarPose {
   double speed_mps = 0.0;
 };
 
-Eigen::Vector2d directionOf(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
+Eigen::Vector2d directionOf(double heading_rad) {
+  return {std::cos(heading_rad), std::sin(heading_rad)};
+}
 
 }  // namespace
 
@@ -86,7 +88,8 @@ Trajectory::Trajectory(const std::vector<PathStep>& steps, const MotionParams& m
         append(std::make_unique<Wait>(here, steps[i].duration_s));
         break;
       case PathStep::Action::kTurn:
-        append(std::make_unique<Turn>(here, steps[i].angle_deg * kRadPerDeg, motion.max_yaw_rate_dps * kRadPerDeg));
+        append(std::make_unique<Turn>(here, steps[i].angle_deg * kRadPerDeg,
+                                      motion.max_yaw_rate_dps * kRadPerDeg));
         break;
       case PathStep::Action::kDriveTo: {
         std::vector<Eigen::Vector2d> points{here.position};
@@ -125,14 +128,16 @@ Eigen::Isometry3d Trajectory::pose(double time_s) const {
 
   // Uneven floor: the faster, the more.
   const double sway = motion_.sway_deg * kRadPerDeg * planar.speed_mps / motion_.max_speed_mps;
-  const double pitch = sway * (0.7 * std::sin(2.0 * M_PI * 1.7 * time_s) + 0.3 * std::sin(2.0 * M_PI * 4.3 * time_s));
-  const double roll = sway * (0.7 * std::sin(2.0 * M_PI * 1.3 * time_s) + 0.3 * std::sin(2.0 * M_PI * 3.7 * time_s));
+  const double pitch =
+      sway * (0.7 * std::sin(2.0 * M_PI * 1.7 * time_s) + 0.3 * std::sin(2.0 * M_PI * 4.3 * time_s));
+  const double roll =
+      sway * (0.7 * std::sin(2.0 * M_PI * 1.3 * time_s) + 0.3 * std::sin(2.0 * M_PI * 3.7 * time_s));
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();
   T_world_base.translation().head<2>() = planar.position;
-  T_world_base.linear() = (Eigen::AngleAxisd(planar.heading_rad, Eigen::Vector3d::UnitZ()) *
-                           Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
-                           Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
-                              .toRotationMatrix();
+  T_world_base.linear() =
+      (Eigen::AngleAxisd(planar.heading_rad, Eigen::Vector3d::UnitZ()) *
+       Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
   return T_world_base;
 }
 
@@ -146,7 +151,8 @@ BaseState Trajectory::state(double time_s) const {
   const Eigen::AngleAxisd turn(before.linear().transpose() * after.linear());
   state.angular_velocity_base = turn.axis() * turn.angle() / (2.0 * kStep_s);
   state.acceleration_world =
-      (after.translation() - 2.0 * state.T_world_base.translation() + before.translation()) / (kStep_s * kStep_s);
+      (after.translation() - 2.0 * state.T_world_base.translation() + before.translation()) /
+      (kStep_s * kStep_s);
   return state;
 }
 
@@ -165,7 +171,8 @@ void MotionParams::describe(ParameterVisitor& visitor) {
   visitor.real("max_acceleration_mps2", max_acceleration_mps2, {0.01, 10.0}, "m/s^2", "along the path");
   visitor.real("max_yaw_rate_dps", max_yaw_rate_dps, {1.0, 360.0}, "deg/s", "slows it down in curves");
   visitor.real("speed_variation", speed_variation, {0.0, 0.9}, "", "share by which the speed wavers");
-  visitor.real("sway_deg", sway_deg, {0.0, 10.0}, "deg", "roll and pitch at full speed, from an uneven floor");
+  visitor.real("sway_deg", sway_deg, {0.0, 10.0}, "deg",
+               "roll and pitch at full speed, from an uneven floor");
 }
 
 }  // namespace stereo_nav::sim

@@ -21,4 +21,13 @@ std::string configFile(const std::string& name) {
   throw ros_io::InputError("no file " + name + ", neither here nor in " + package + "/config");
 }
 
+std::string scenarioFile(const std::string& name) {
+  if (std::filesystem::exists(name)) return name;
+  return configFile("scenarios/" + name + ".yaml");
+}
+
+std::string thesisCalibrationFolder() {
+  return std::filesystem::path(configFile("thesis/left.yaml")).parent_path().string();
+}
+
 }  // namespace stereo_nav::tools

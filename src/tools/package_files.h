@@ -8,4 +8,10 @@ namespace stereo_nav::tools {
 /// Throws ros_io::InputError that names both places.
 std::string configFile(const std::string& name);
 
+/// `name` itself where such a file exists, else the scenario of that name in the package.
+std::string scenarioFile(const std::string& name);
+
+/// Folder of the thesis rig's left.yaml and right.yaml.
+std::string thesisCalibrationFolder();
+
 }  // namespace stereo_nav::tools

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/program_options.hpp>
-#include <filesystem>
 #include <iostream>
 #include <thread>
 
@@ -33,14 +32,9 @@ void printParameters() {
   printTable("items of the list `events`", sim::Event());
 }
 
-std::string scenarioFile(const std::string& name) {
-  if (std::filesystem::exists(name)) return name;
-  return configFile("scenarios/" + name + ".yaml");
-}
-
 std::string calibrationFolder(const po::variables_map& values) {
   if (values.count("calibration") != 0) return values["calibration"].as<std::string>();
-  return std::filesystem::path(configFile("thesis/left.yaml")).parent_path().string();
+  return thesisCalibrationFolder();
 }
 
 }  // namespace

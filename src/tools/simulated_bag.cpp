@@ -1,12 +1,10 @@
 #include "simulated_bag.h"
 
-#include <rosbag/bag.h>
-
 #include <algorithm>
 #include <future>
 #include <vector>
 
-#include "stereo_nav/ros_io/conversions.h"
+#include "stereo_nav/ros_io/bag_file.h"
 #include "stereo_nav/ros_io/topics.h"
 
 namespace stereo_nav::tools {
@@ -17,23 +15,13 @@ namespace topics = ros_io::topics;
 /// Simulation time 0; any date is as good, a fixed one gives the same bytes every time.
 const ros::Time kStart(1000000000, 0);
 
-/// Connection header of a topic that rosbag play shall latch as its publisher did.
-template <class Message>
-boost::shared_ptr<ros::M_string> latchedHeader() {
-  auto header = boost::make_shared<ros::M_string>();
-  (*header)["type"] = ros::message_traits::datatype<Message>();
-  (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
-  (*header)["message_definition"] = ros::message_traits::definition<Message>();
-  (*header)["latching"] = "1";
-  return header;
-}
-
 /// Writes in order of arrival what lies between pairs.
 class BagWriter {
  public:
-  BagWriter(rosbag::Bag& bag, const sim::Simulation& simulation, const ros_io::SimulatedMessages& messages)
+  BagWriter(ros_io::BagFile& bag, const sim::Simulation& simulation,
+            const ros_io::SimulatedMessages& messages)
       : bag_(bag), simulation_(simulation), messages_(messages) {
-    bag_.write(topics::kTfStatic, kStart, messages_.staticTransforms(), latchedHeader<tf2_msgs::TFMessage>());
+    bag_.writeLatched(topics::kTfStatic, kStart, messages_.staticTransforms());
   }
 
   void writeUntil(double time_s) {
@@ -69,7 +57,7 @@ class BagWriter {
   }
 
  private:
-  rosbag::Bag& bag_;
+  ros_io::BagFile& bag_;
   const sim::Simulation& simulation_;
   const ros_io::SimulatedMessages& messages_;
   std::size_t next_imu_ = 0;
@@ -80,8 +68,8 @@ class BagWriter {
 
 void writeSimulatedBag(const std::string& path, const sim::Simulation& simulation,
                        const SimulatedBagOptions& options,
-                       const std::function<void(std::size_t, std::size_t)>& progress) try {
-  rosbag::Bag bag(path, rosbag::bagmode::Write);
+                       const std::function<void(std::size_t, std::size_t)>& progress) {
+  ros_io::BagFile bag(path);
   bag.setCompression(options.compress ? rosbag::compression::BZ2 : rosbag::compression::Uncompressed);
   const ros_io::SimulatedMessages messages(simulation, kStart);
   BagWriter writer(bag, simulation, messages);
@@ -105,10 +93,7 @@ void writeSimulatedBag(const std::string& path, const sim::Simulation& simulatio
     progress(first + batch, pairs);
   }
   writer.writeUntil(std::min(simulation.duration_s(), options.duration_s));
-  bag.close();
-} catch (const rosbag::BagException& error) {
-  throw ros_io::InputError(path + ": cannot be written: " + error.what() +
-                           "; does the folder exist, and is there space on the disk?");
+  bag.commit();
 }
 
 }  // namespace stereo_nav::tools

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "rostest/graph_probe.h"
 #include "stereo_nav/eval/trajectory.h"
@@ -28,12 +29,19 @@ const nav_msgs::Odometry* truthOf(const nav_msgs::Odometry& estimate, const Grap
 /// The last pose that `evaluate` finds for the same recording, without a graph.
 Eigen::Isometry3d evaluated(const std::string& bag, const std::string& config) {
   const std::string folder = testing::TempDir() + "replay_test_" + std::to_string(getpid());
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "evaluate";
   const std::string command =
-      "rosrun stereo_nav evaluate '" + bag + "' --config " + config + " --output " + folder + " > /dev/null";
+      program.string() + " '" + bag + "' --config " + config + " --output " + folder + " > /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   const eval::Trajectory trajectory = eval::readTum(folder + "/trajectory.tum");
   std::filesystem::remove_all(folder);
   return trajectory.back().T_world_body;
+}
+
+std::string stampsOf(const std::vector<nav_msgs::Odometry>& messages) {
+  std::ostringstream text;
+  for (const auto& message : messages) text << message.header.stamp << " ";
+  return text.str();
 }
 
 Eigen::Isometry3d poseOf(const nav_msgs::Odometry& odometry) {
@@ -55,7 +63,7 @@ TEST_F(Replay, EveryFrameBecomesOdometryNearTheGroundTruth) {
   ASSERT_TRUE(probe_.waitUntil([&] { return !probe_.odometry.empty(); }, kLongWait_s))
       << "no odometry at all";
   ASSERT_TRUE(probe_.waitUntil([&] { return probe_.odometry.size() >= kFrames; }, kLongWait_s))
-      << probe_.odometry.size() << " frames";
+      << "stamps of the frames: " << stampsOf(probe_.odometry);
 
   const nav_msgs::Odometry& last = probe_.odometry.back();
   EXPECT_EQ(last.header.frame_id, "odom");

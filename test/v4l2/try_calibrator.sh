@@ -7,7 +7,7 @@ export DISPLAY=:1 LIBGL_ALWAYS_SOFTWARE=1 PYTHONUNBUFFERED=1
 Xvfb :1 -screen 0 1024x768x24 >/tmp/xvfb.log 2>&1 &
 pids=($!)
 trap 'kill "${pids[@]}"' EXIT
-"$programs/v4l2_feed_checkerboard" & pids+=($!)
+"$programs/v4l2_test_checkerboard" & pids+=($!)
 sleep 1
 "$programs/stereo_capture" _left/device:=/dev/video10 _right/device:=/dev/video11 _width:=320 _height:=240 \
   _rate_hz:=2.0 _max_skew_s:=0.1 _stall_timeout_s:=30.0 _load_image_proc:=false & pids+=($!)

@@ -69,7 +69,6 @@ $b mkdir -p /newroot/vm-out
 $b mount -t 9p -o trans=virtio,version=9p2000.L,msize=524288 out /newroot/vm-out
 $b mount --move /dev /newroot/dev; $b mount --move /proc /newroot/proc; $b mount --move /sys /newroot/sys
 $b mkdir -p /newroot/dev/shm /newroot/dev/pts; $b mount -t tmpfs shm /newroot/dev/shm; $b mount -t devpts pts /newroot/dev/pts
-$b mount -t tmpfs tmp /newroot/tmp
 $b ip link set lo up; $b hostname localhost
 exec $b switch_root /newroot /bin/bash /vm-out/.run
 INIT
@@ -133,6 +132,8 @@ mkdir -p "$out" "$cache"
 
 {
   echo "export PATH=/usr/local/bin:/usr/bin:/usr/sbin:/bin:/sbin HOME=/root"
+  # A checkout in /tmp must stay visible.
+  [[ $PWD == /tmp/* ]] || echo "mount -t tmpfs tmp /tmp"
   printf 'cd %q || exit 1\n' "$PWD"
   printf '('
   printf ' %q' "$@"

@@ -22,14 +22,14 @@ struct TimingParams {
 struct PairInstants {
   double left_s;
   double right_s;
-  std::uint32_t left_sequence;   ///< counts every image of the camera, paired or not
+  std::uint32_t left_sequence;  ///< counts every image of the camera, paired or not
   std::uint32_t right_sequence;
-  std::uint64_t pairs_dropped;   ///< left images that have found no partner so far
+  std::uint64_t pairs_dropped;  ///< left images that have found no partner so far
 };
 
-/// All pairs of a recording that starts at 0. Each camera runs on its own; then every left image is paired with
-/// the right image nearest in time, if that one has no nearer left image and is at most half a period away: what
-/// the capture node does with real cameras. Deterministic in `seed`.
+/// All pairs of a recording that starts at 0. Each camera runs on its own; then every left image is paired
+/// with the right image nearest in time, if that one has no nearer left image and is at most half a period
+/// away: what the capture node does with real cameras. Deterministic in `seed`.
 std::vector<PairInstants> pairInstants(const TimingParams& timing, double duration_s, std::uint64_t seed);
 
 }  // namespace stereo_nav::sim

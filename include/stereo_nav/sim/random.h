@@ -5,8 +5,8 @@
 
 namespace stereo_nav::sim {
 
-/// Counter-based random numbers: a draw is a pure function of (key, counter), so that results do not depend on
-/// the order of drawing nor on the number of threads. The mixing function is the finaliser of SplitMix64
+/// Counter-based random numbers: a draw is a pure function of (key, counter), so that results do not depend
+/// on the order of drawing nor on the number of threads. The mixing function is the finaliser of SplitMix64
 /// (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
 inline std::uint64_t mixBits(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15ull;

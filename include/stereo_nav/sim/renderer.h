@@ -21,10 +21,10 @@ struct Shutter {
 /// Pose of the raw optical frame at a time: T_world_camera. Called from the rendering thread.
 using CameraPath = std::function<Eigen::Isometry3d(double time_s)>;
 
-/// Casts rays from one camera into a scene. Every pixel is the mean of `samples` rays that are spread over its
-/// area and over the exposure time at once, so that edges are smooth and motion blurs; textures are read from
-/// pyramids, along the slant of the surface with several taps. The rays of the distorted pixels are computed
-/// once. Const methods may be called from several threads.
+/// Casts rays from one camera into a scene. Every pixel is the mean of `samples` rays that are spread over
+/// its area and over the exposure time at once, so that edges are smooth and motion blurs; textures are read
+/// from pyramids, along the slant of the surface with several taps. The rays of the distorted pixels are
+/// computed once. Const methods may be called from several threads.
 class Renderer {
  public:
   /// `samples` per pixel, 1 to 16. `scene` must outlive the renderer.
@@ -48,7 +48,7 @@ class Renderer {
   int width_, height_;
   int stride_;  ///< width rounded up to whole tiles
   int samples_;
-  float ray_pitch_;                  ///< between neighbouring pixels
+  float ray_pitch_;                   ///< between neighbouring pixels
   std::vector<float> ray_x_, ray_y_;  ///< [sample][row][stride_]
   std::vector<TileBounds> tiles_;
 };

@@ -52,9 +52,9 @@ struct Scenario {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Reads a scenario file: sections as described, and the lists `path`, `objects`, `clutter`, `events`, each item
-/// as described by its struct. `overrides` are `section.name=value`, applied on top.
-/// Throws ParameterError that names file, item and parameter.
+/// Reads a scenario file: sections as described, and the lists `path`, `objects`, `clutter`, `events`, each
+/// item as described by its struct. `overrides` are `section.name=value`, applied on top. Throws
+/// ParameterError that names file, item and parameter.
 Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace stereo_nav::sim

@@ -85,7 +85,7 @@ struct SceneParams {
 /// A surface as the renderer sees it.
 struct Surface {
   const Texture* texture = nullptr;
-  float grey = 128.0f;            ///< 255 * brightness
+  float grey = 128.0f;  ///< 255 * brightness
   float contrast = 1.0f;
   float texels_per_m = 250.0f;
   float u_offset = 0.0f;  ///< texels; another piece of the texture for every object
@@ -96,7 +96,7 @@ struct Surface {
 struct Solid {
   enum class Kind { kRoom, kBox, kCylinder };
   Kind kind = Kind::kBox;
-  Eigen::Vector3d p_world = Eigen::Vector3d::Zero();  ///< of the middle at rest
+  Eigen::Vector3d p_world = Eigen::Vector3d::Zero();            ///< of the middle at rest
   Eigen::Matrix3d R_solid_world = Eigen::Matrix3d::Identity();  ///< a turn about the vertical
   Eigen::Vector3f half = Eigen::Vector3f::Constant(0.5f);  ///< half extents; a cylinder's radius in x and y
   Eigen::Vector3f inverse_half = Eigen::Vector3f::Constant(2.0f);

@@ -18,8 +18,8 @@ class PlanarSpline {
 
   struct Sample {
     Eigen::Vector2d position;
-    double heading_rad;   ///< of the tangent, in (-pi, pi]
-    double curvature_1pm; ///< positive to the left
+    double heading_rad;    ///< of the tangent, in (-pi, pi]
+    double curvature_1pm;  ///< positive to the left
   };
   Sample at(double arc_m) const;
 

@@ -34,9 +34,9 @@ struct MotionParams {
 /// Motion of `base_link` (on the floor, x forward, y left, z up) in the world, whose origin is the start.
 struct BaseState {
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d velocity_base = Eigen::Vector3d::Zero();           ///< m/s, in base coordinates
-  Eigen::Vector3d angular_velocity_base = Eigen::Vector3d::Zero();   ///< rad/s, in base coordinates
-  Eigen::Vector3d acceleration_world = Eigen::Vector3d::Zero();      ///< m/s^2, without gravity
+  Eigen::Vector3d velocity_base = Eigen::Vector3d::Zero();          ///< m/s, in base coordinates
+  Eigen::Vector3d angular_velocity_base = Eigen::Vector3d::Zero();  ///< rad/s, in base coordinates
+  Eigen::Vector3d acceleration_world = Eigen::Vector3d::Zero();     ///< m/s^2, without gravity
 };
 
 struct WaypointPassing {
@@ -44,8 +44,8 @@ struct WaypointPassing {
   Eigen::Vector2d position;
 };
 
-/// A smooth motion that obeys the robot's constraint: it moves only along its own x axis, or turns on the spot.
-/// Before time 0 and after the end it stands. Const methods may be called from several threads.
+/// A smooth motion that obeys the robot's constraint: it moves only along its own x axis, or turns on the
+/// spot. Before time 0 and after the end it stands. Const methods may be called from several threads.
 class Trajectory {
  public:
   Trajectory(const std::vector<PathStep>& steps, const MotionParams& motion);

@@ -157,6 +157,7 @@ class BagWriter {
     sync.left_stamp = leftStamp(i);
     sync.right_stamp = rightStamp(i);
     sync.skew_s = (sync.right_stamp - sync.left_stamp).toSec();
+    sync.skew_rate = 0.0;  // these layouts' cameras share a clock
     sync.left_sequence = static_cast<std::uint32_t>(pairs_[i].left);
     sync.right_sequence = static_cast<std::uint32_t>(pairs_[i].right);
     sync.left_exposure_s = std::numeric_limits<double>::quiet_NaN();

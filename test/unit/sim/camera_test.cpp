@@ -13,7 +13,8 @@ TEST(CameraCalibration, DistortionAgreesWithOpenCv) {
   K.at<double>(0, 0) = camera.K(0, 0), K.at<double>(1, 1) = camera.K(1, 1);
   K.at<double>(0, 2) = camera.K(0, 2), K.at<double>(1, 2) = camera.K(1, 2);
   const cv::Mat D(1, 5, CV_64F, const_cast<double*>(camera.D.data()));
-  for (const cv::Point3d& point : {cv::Point3d(0.3, -0.2, 1.0), cv::Point3d(-0.35, 0.25, 1.0), cv::Point3d(0, 0, 1)}) {
+  for (const cv::Point3d& point :
+       {cv::Point3d(0.3, -0.2, 1.0), cv::Point3d(-0.35, 0.25, 1.0), cv::Point3d(0, 0, 1)}) {
     std::vector<cv::Point2d> expected;
     cv::projectPoints(std::vector<cv::Point3d>{point}, cv::Vec3d(), cv::Vec3d(), K, D, expected);
     const Eigen::Vector2d pixel = camera.distort({point.x, point.y});
@@ -49,7 +50,8 @@ TEST(CameraCalibration, ADamagedFileIsNamed) {
     loadCameraCalibration(path);
     FAIL() << "must throw";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("broken.yaml: not a usable camera calibration"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("broken.yaml: not a usable camera calibration"),
+              std::string::npos);
   }
 }
 

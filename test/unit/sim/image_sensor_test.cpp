@@ -19,7 +19,8 @@ TEST(ImageSensor, NoiseHasItsSpreadAndNoMean) {
 TEST(ImageSensor, GainOffsetVignettingAndSaturation) {
   SensorParams params{0.0, 0.0, 0.0, 0.0, 0.5};
   const CameraResponse response{1.2, -20.0};
-  const cv::Mat image = ImageSensor(321, 241, params, response).expose(cv::Mat(241, 321, CV_32FC1, cv::Scalar(100.0)), 1);
+  const cv::Mat image =
+      ImageSensor(321, 241, params, response).expose(cv::Mat(241, 321, CV_32FC1, cv::Scalar(100.0)), 1);
   EXPECT_EQ(image.at<uchar>(120, 160), 100);  // 1.2 * 100 - 20
   EXPECT_EQ(image.at<uchar>(0, 0), 40);       // 1.2 * 50 - 20
   const cv::Mat bright(240, 320, CV_32FC1, cv::Scalar(1000.0));

@@ -8,7 +8,8 @@ namespace stereo_nav::sim {
 namespace {
 
 Trajectory drive(const char* scenario_name) {
-  const Scenario scenario = loadScenario(std::string(STEREO_NAV_SOURCE_DIR "/config/scenarios/") + scenario_name);
+  const Scenario scenario =
+      loadScenario(std::string(STEREO_NAV_SOURCE_DIR "/config/scenarios/") + scenario_name);
   return Trajectory(scenario.path, scenario.motion);
 }
 
@@ -19,7 +20,9 @@ Trajectory standing(double duration_s) {
   return Trajectory({wait}, MotionParams());
 }
 
-double yaw(const Eigen::Matrix3d& R) { return std::atan2(R(1, 0), R(0, 0)); }
+double yaw(const Eigen::Matrix3d& R) {
+  return std::atan2(R(1, 0), R(0, 0));
+}
 
 TEST(ImuModel, AnIdealGyroIntegratesToTheTrueAttitude) {
   for (const char* name : {"arena.yaml", "turn_in_place.yaml"}) {
@@ -30,8 +33,10 @@ TEST(ImuModel, AnIdealGyroIntegratesToTheTrueAttitude) {
     const auto samples = simulateImu(params, trajectory, trajectory.duration_s(), 1);
     Eigen::Matrix3d R = trajectory.pose(samples.front().time_s).linear();
     for (std::size_t i = 1; i < samples.size(); ++i) {
-      const Eigen::Vector3d turn = 0.5 * (*samples[i - 1].angular_velocity + *samples[i].angular_velocity) / params.rate_hz;
-      R = R * Eigen::AngleAxisd(turn.norm(), turn.norm() > 0.0 ? turn.normalized() : Eigen::Vector3d::UnitX());
+      const Eigen::Vector3d turn =
+          0.5 * (*samples[i - 1].angular_velocity + *samples[i].angular_velocity) / params.rate_hz;
+      R = R *
+          Eigen::AngleAxisd(turn.norm(), turn.norm() > 0.0 ? turn.normalized() : Eigen::Vector3d::UnitX());
     }
     const Eigen::Matrix3d truth = trajectory.pose(samples.back().time_s).linear();
     EXPECT_LT(Eigen::AngleAxisd(truth.transpose() * R).angle(), 0.01 * M_PI / 180.0) << name;
@@ -46,7 +51,8 @@ TEST(ImuModel, AccelerometerShowsGravityAtRestAndIntegratesToTheSpeed) {
   EXPECT_NEAR((*samples.front().linear_acceleration - Eigen::Vector3d(0, 0, 9.81)).norm(), 0.0, 1e-6);
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   for (const vo::ImuSample& sample : samples) {
-    velocity += (*sample.q_world_imu * *sample.linear_acceleration - Eigen::Vector3d(0, 0, 9.81)) / params.rate_hz;
+    velocity +=
+        (*sample.q_world_imu * *sample.linear_acceleration - Eigen::Vector3d(0, 0, 9.81)) / params.rate_hz;
   }
   EXPECT_NEAR(velocity.x(), trajectory.state(4.0).velocity_base.x(), 0.01);
 }
@@ -58,7 +64,7 @@ TEST(ImuModel, TheThesisModuleDriftsAsItsAuthorMeasured) {
   const double first = yaw(samples.front().q_world_imu->toRotationMatrix());
   const double last = yaw(samples.back().q_world_imu->toRotationMatrix());
   EXPECT_NEAR((last - first) * 180.0 / M_PI, 2.9, 0.15);
-  EXPECT_NEAR(first * 180.0 / M_PI, 20.0, 0.1);  // counts from power-on
+  EXPECT_NEAR(first * 180.0 / M_PI, 20.0, 0.1);   // counts from power-on
   EXPECT_NEAR(samples[100].time_s, 1.005, 1e-9);  // late by its latency
 }
 
@@ -82,7 +88,8 @@ TEST(ImuModel, TheRawModuleHasBiasAndNoiseOfItsDensity) {
 
 TEST(ImuModel, SeedsDecide) {
   const Trajectory trajectory = standing(1.0);
-  const auto a = simulateImu(ImuParams(), trajectory, 1.0, 7), b = simulateImu(ImuParams(), trajectory, 1.0, 7);
+  const auto a = simulateImu(ImuParams(), trajectory, 1.0, 7),
+             b = simulateImu(ImuParams(), trajectory, 1.0, 7);
   const auto c = simulateImu(ImuParams(), trajectory, 1.0, 8);
   EXPECT_EQ(a[50].q_world_imu->coeffs(), b[50].q_world_imu->coeffs());
   EXPECT_NE(a[50].q_world_imu->coeffs(), c[50].q_world_imu->coeffs());

@@ -61,7 +61,8 @@ TEST(Scenario, AllThatAreShippedCanBeDriven) {
     const Scene scene(simulation.scenario().scene);
     for (double time_s = 0.0; time_s < simulation.duration_s(); time_s += 0.5) {
       const Eigen::Isometry3d T = simulation.cameraPose(Side::kLeft, time_s);
-      EXPECT_GT(scene.castRay(T.translation(), T.linear().col(2), time_s), 0.2) << entry.path() << " at " << time_s;
+      EXPECT_GT(scene.castRay(T.translation(), T.linear().col(2), time_s), 0.2)
+          << entry.path() << " at " << time_s;
     }
     ++scenarios;
   }
@@ -75,7 +76,8 @@ TEST(Scenario, LampsFailAndLensesAreCovered) {
   };
   EXPECT_GT(brightness(dark, Side::kLeft, 2.0), 50.0);
   EXPECT_LT(brightness(dark, Side::kLeft, 14.0), 5.0);
-  const Simulation blocked(loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/blocked.yaml"), thesisRig(), 1);
+  const Simulation blocked(loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/blocked.yaml"), thesisRig(),
+                           1);
   EXPECT_LT(brightness(blocked, Side::kRight, 5.0), 15.0);
   EXPECT_GT(brightness(blocked, Side::kLeft, 5.0), 50.0);
   EXPECT_LT(brightness(blocked, Side::kLeft, 15.0), 15.0);

@@ -8,7 +8,9 @@
 namespace stereo_nav::sim {
 namespace {
 
-Scenario arena() { return loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/arena.yaml"); }
+Scenario arena() {
+  return loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/arena.yaml");
+}
 
 TEST(PlanarSpline, AStraightLineIsExact) {
   const PlanarSpline line({{0, 0}, {1, 0}, {3, 0}}, {1, 0});
@@ -53,8 +55,10 @@ TEST(Trajectory, IsNonHolonomicSmoothAndWithinItsLimits) {
     // Sway tilts base_link by a few mrad, so that a trace of the speed shows on z.
     EXPECT_NEAR(state.velocity_base.y(), 0.0, 1e-4) << time_s;
     EXPECT_GE(state.velocity_base.x(), -1e-6) << time_s;
-    EXPECT_LT(state.velocity_base.x(), scenario.motion.max_speed_mps * (1.0 + scenario.motion.speed_variation) + 1e-6);
-    EXPECT_LT(std::fabs(state.angular_velocity_base.z()), 1.25 * scenario.motion.max_yaw_rate_dps * M_PI / 180.0);
+    EXPECT_LT(state.velocity_base.x(),
+              scenario.motion.max_speed_mps * (1.0 + scenario.motion.speed_variation) + 1e-6);
+    EXPECT_LT(std::fabs(state.angular_velocity_base.z()),
+              1.25 * scenario.motion.max_yaw_rate_dps * M_PI / 180.0);
     EXPECT_LT((state.velocity_base - last_velocity).norm(), 0.01) << time_s;
     EXPECT_LT((state.angular_velocity_base - last_rate).norm(), 0.05) << time_s;
     last_rate = state.angular_velocity_base;
