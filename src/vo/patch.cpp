@@ -1,7 +1,6 @@
 #include "stereo_nav/vo/patch.h"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <opencv2/core/hal/intrin.hpp>
@@ -62,34 +61,43 @@ void sample(const cv::Mat& image, const cv::Point2f& corner, int rows, int strid
   }
 }
 
+/// Whether a patch of axes `step` around `centre` lies in the image and its border.
+bool warpInside(const cv::Mat& image, const cv::Point2f& centre, const Eigen::Matrix2f& step, int half) {
+  constexpr auto kBorder = static_cast<float>(ImagePyramid::kBorder_px - 1);
+  const Eigen::Vector2f reach = static_cast<float>(half) * step.cwiseAbs().rowwise().sum();
+  return centre.x - reach.x() >= -kBorder && centre.y - reach.y() >= -kBorder &&
+         centre.x + reach.x() <= static_cast<float>(image.cols - 2) + kBorder &&
+         centre.y + reach.y() <= static_cast<float>(image.rows - 2) + kBorder;
+}
+
 /// The same around `centre`, along the axes `step` (image px per patch px): column c and row r of the patch
-/// at centre + step * (c - half, r - half). Parts outside of the image and its border repeat the border's
-/// edge.
+/// at centre + step * (c - half, r - half). In fixed point: this runs for every track and level.
 void sampleWarped(const cv::Mat& image, const cv::Point2f& centre, const Eigen::Matrix2f& step, int half,
-                  int rows, int stride, std::int16_t* out) {
+                  int stride, std::int16_t* out) {
+  constexpr int kBits = 16;
+  constexpr float kOne = 1 << kBits;
+  constexpr int kShare = 128;  // 7 bits of the fraction: products stay below 2^31
+  const auto fixed = [](float value) { return static_cast<int>(std::lround(value * kOne)); };
   const auto pitch = static_cast<std::ptrdiff_t>(image.step);
-  const float least = -static_cast<float>(ImagePyramid::kBorder_px);
-  const float most_x = static_cast<float>(image.cols + ImagePyramid::kBorder_px - 2);
-  const float most_y = static_cast<float>(image.rows + ImagePyramid::kBorder_px - 2);
-  constexpr float kOne = 1 << kFractionBits;
-  for (int r = 0; r < rows; ++r) {
+  const int column_x = fixed(step(0, 0));
+  const int column_y = fixed(step(1, 0));
+  const int size = 2 * half + 1;
+  for (int r = 0; r < size; ++r) {
     const auto dy = static_cast<float>(r - half);
-    for (int c = 0; c < stride; ++c) {
-      const auto dx = static_cast<float>(c - half);
-      const float px = std::clamp(centre.x + step(0, 0) * dx + step(0, 1) * dy, least, most_x);
-      const float py = std::clamp(centre.y + step(1, 0) * dx + step(1, 1) * dy, least, most_y);
-      const float floor_x = std::floor(px);
-      const float floor_y = std::floor(py);
-      const float a = px - floor_x;
-      const float b = py - floor_y;
-      const uchar* above =
-          image.data + static_cast<std::ptrdiff_t>(floor_y) * pitch + static_cast<std::ptrdiff_t>(floor_x);
+    const auto dx = static_cast<float>(-half);
+    int x = fixed(centre.x + step(0, 0) * dx + step(0, 1) * dy);
+    int y = fixed(centre.y + step(1, 0) * dx + step(1, 1) * dy);
+    for (int c = 0; c < size; ++c, x += column_x, y += column_y) {
+      // Arithmetic shifts round down, also for the negative places of the border.
+      const uchar* above = image.data + static_cast<std::ptrdiff_t>(y >> kBits) * pitch + (x >> kBits);
       const uchar* below = above + pitch;
-      const auto p00 = static_cast<float>(above[0]);
-      const auto p10 = static_cast<float>(below[0]);
-      const float upper = p00 + a * (static_cast<float>(above[1]) - p00);
-      const float lower = p10 + a * (static_cast<float>(below[1]) - p10);
-      out[r * stride + c] = static_cast<std::int16_t>(kOne * (upper + b * (lower - upper)) + 0.5F);
+      const int a = (x >> (kBits - 7)) & (kShare - 1);
+      const int b = (y >> (kBits - 7)) & (kShare - 1);
+      const int upper = above[0] * (kShare - a) + above[1] * a;
+      const int lower = below[0] * (kShare - a) + below[1] * a;
+      constexpr int kShift = 14 - kFractionBits;
+      out[r * stride + c] =
+          static_cast<std::int16_t>((upper * (kShare - b) + lower * b + (1 << (kShift - 1))) >> kShift);
     }
   }
 }
@@ -152,7 +160,9 @@ std::optional<Patch> Patch::cut(const cv::Mat& image, const cv::Point2f& centre,
   if (step.isIdentity(kNoWarp)) {
     sample(image, corner - cv::Point2f(1.0F, 1.0F), window + 2, wide_stride, wide.data());
   } else {
-    sampleWarped(image, centre, step, half + 1, window + 2, wide_stride, wide.data());
+    if (!warpInside(image, centre, step, half + 1)) return std::nullopt;
+    wide.fill(0);
+    sampleWarped(image, centre, step, half + 1, wide_stride, wide.data());
   }
   for (int r = 0; r < window; ++r) {
     const std::int16_t* row = wide.data() + (r + 1) * wide_stride + 1;

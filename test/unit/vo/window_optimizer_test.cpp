@@ -21,7 +21,7 @@ class WindowOptimizerTest : public ::testing::Test {
       truth.push_back(frame.view);
       if (skew_s != 0.0) {
         frame.skewed = true;
-        frame.late_sigma.setConstant(0.05);
+        frame.late_sigma.setConstant(0.005);
         frame.T_late_expected = frame.view.T_late_camera;
         frame.view.T_late_camera = expMotion(0.7 * twist * skew_s);
       }
