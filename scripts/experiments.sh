@@ -35,4 +35,4 @@ mkdir -p "$out"
 snakemake --snakefile "$STEREO_NAV_ROOT/workflow/Snakefile" --directory "$out" --cores all --keep-going \
   "${arguments[@]}" --config "output=$out" "seeds=$seeds" "${settings[@]}"
 $recordings && exit 0
-/usr/bin/python3 "$STEREO_NAV_ROOT/workflow/report.py" "$out/results.csv" "$STEREO_NAV_ROOT/docs"
+/usr/bin/python3 "$STEREO_NAV_ROOT/workflow/report.py" "$out" "$STEREO_NAV_ROOT/docs"

@@ -14,7 +14,9 @@ bool empty(const Words& set) {
   return std::all_of(set.begin(), set.end(), [](std::uint64_t word) { return word == 0; });
 }
 
-void erase(Words& set, std::size_t i) { set[i / 64] &= ~(std::uint64_t{1} << (i % 64)); }
+void erase(Words& set, std::size_t i) {
+  set[i / 64] &= ~(std::uint64_t{1} << (i % 64));
+}
 
 class Search {
  public:

@@ -8,8 +8,8 @@ namespace stereo_nav::vo {
 namespace {
 
 constexpr int kFastRadius_px = 3;
-constexpr int kEdge_px = 8;       ///< corners nearer to the edge have half a patch only
-constexpr int kPerCell = 3;       ///< candidates kept per cell, for the cells that fill in for empty ones
+constexpr int kEdge_px = 8;         ///< corners nearer to the edge have half a patch only
+constexpr int kPerCell = 3;         ///< candidates kept per cell, for the cells that fill in for empty ones
 constexpr int kPlentyPerCell = 12;  ///< more than this: the threshold may rise
 
 /// Which pixels are too near to a corner already taken: a bucket grid of the distance's size.
@@ -110,7 +110,8 @@ void GridCornerDetector::detectCell(const cv::Mat& image, int cell, int occupied
                       return a.pt.y != b.pt.y ? a.pt.y < b.pt.y : a.pt.x < b.pt.x;
                     });
   for (std::size_t i = 0; i < kept; ++i) {
-    const cv::Point2f px = corners[i].pt + cv::Point2f(static_cast<float>(rect.x), static_cast<float>(rect.y));
+    const cv::Point2f px =
+        corners[i].pt + cv::Point2f(static_cast<float>(rect.x), static_cast<float>(rect.y));
     candidates.push_back({px, corners[i].response, occupied + static_cast<int>(i)});
   }
 }

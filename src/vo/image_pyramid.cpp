@@ -26,8 +26,8 @@ void fillBorder(cv::Mat level) {
 ImagePyramid::ImagePyramid(const cv::Mat& image, int levels) {
   constexpr int kSmallestSide_px = 24;
   for (int l = 0; l < levels; ++l) {
-    const cv::Size size = l == 0 ? image.size()
-                                 : cv::Size((levels_.back().cols + 1) / 2, (levels_.back().rows + 1) / 2);
+    const cv::Size size =
+        l == 0 ? image.size() : cv::Size((levels_.back().cols + 1) / 2, (levels_.back().rows + 1) / 2);
     if (l > 0 && std::min(size.width, size.height) < kSmallestSide_px) break;
     cv::Mat level = withBorder(size);
     if (l == 0) {

@@ -26,9 +26,10 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 
 Eigen::Matrix3d expRotation(const Eigen::Vector3d& angle) {
   const double norm = angle.norm();
-  if (norm < kSmallAngle_rad) return Eigen::Quaterniond(1.0, 0.5 * angle.x(), 0.5 * angle.y(), 0.5 * angle.z())
-      .normalized()
-      .toRotationMatrix();
+  if (norm < kSmallAngle_rad)
+    return Eigen::Quaterniond(1.0, 0.5 * angle.x(), 0.5 * angle.y(), 0.5 * angle.z())
+        .normalized()
+        .toRotationMatrix();
   return Eigen::AngleAxisd(norm, angle / norm).toRotationMatrix();
 }
 

@@ -62,10 +62,11 @@ void sample(const cv::Mat& image, const cv::Point2f& corner, int rows, int strid
   }
 }
 
-/// The same around `centre`, along the axes `step` (image px per patch px): column c and row r of the patch at
-/// centre + step * (c - half, r - half). Parts outside of the image and its border repeat the border's edge.
-void sampleWarped(const cv::Mat& image, const cv::Point2f& centre, const Eigen::Matrix2f& step, int half, int rows,
-                  int stride, std::int16_t* out) {
+/// The same around `centre`, along the axes `step` (image px per patch px): column c and row r of the patch
+/// at centre + step * (c - half, r - half). Parts outside of the image and its border repeat the border's
+/// edge.
+void sampleWarped(const cv::Mat& image, const cv::Point2f& centre, const Eigen::Matrix2f& step, int half,
+                  int rows, int stride, std::int16_t* out) {
   const auto pitch = static_cast<std::ptrdiff_t>(image.step);
   const float least = -static_cast<float>(ImagePyramid::kBorder_px);
   const float most_x = static_cast<float>(image.cols + ImagePyramid::kBorder_px - 2);

@@ -10,7 +10,8 @@ constexpr double kCoarseTexture = 0.25;  ///< only to keep the equations solvabl
 }  // namespace
 
 void PatchTrackerParams::describe(ParameterVisitor& visitor) {
-  visitor.integer("window_px", window_px, {5, Patch::kMaxWindow}, "px", "side of the patch on the finest level; odd");
+  visitor.integer("window_px", window_px, {5, Patch::kMaxWindow}, "px",
+                  "side of the patch on the finest level; odd");
   visitor.integer("coarse_window_px", coarse_window_px, {5, Patch::kMaxWindow}, "px",
                   "side of the patch on the coarse levels; odd");
   visitor.integer("iterations", iterations, {1, 100}, "", "most steps per level");

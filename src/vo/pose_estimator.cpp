@@ -24,8 +24,8 @@ Eigen::Matrix<double, 3, 6> pointJacobian(const Eigen::Vector3d& p) {
   return jacobian;
 }
 
-void addRotationPrior(const Eigen::Matrix3d& R, const Eigen::Matrix3d& R_measured, double sigma_rad, int first,
-                      NormalEquations& equations) {
+void addRotationPrior(const Eigen::Matrix3d& R, const Eigen::Matrix3d& R_measured, double sigma_rad,
+                      int first, NormalEquations& equations) {
   const Eigen::Vector3d residual = logRotation(R * R_measured.transpose());
   const double weight = 1.0 / (sigma_rad * sigma_rad);
   equations.information.block<3, 3>(first, first).diagonal().array() += weight;
@@ -40,15 +40,16 @@ void addSkewPrior(const MotionPrior& prior, const StereoView& view, NormalEquati
   const Vector6d residual = late - prior.skew_s * twist;
   const double gain = prior.previous_twist ? 1.5 : 1.0;
   Eigen::Matrix<double, 6, 12> jacobian;
-  jacobian.leftCols<6>() = -gain * prior.skew_s / prior.interval_s *
-                           inverseLeftJacobian(logMotion(T_camera_previous));
+  jacobian.leftCols<6>() =
+      -gain * prior.skew_s / prior.interval_s * inverseLeftJacobian(logMotion(T_camera_previous));
   jacobian.rightCols<6>() = inverseLeftJacobian(late);
   const Vector6d weight = (prior.twist_sigma * prior.skew_s).array().square().inverse();
   equations.information += jacobian.transpose() * weight.asDiagonal() * jacobian;
   equations.gradient += jacobian.transpose() * (weight.asDiagonal() * residual);
 }
 
-void addPriors(const MotionPrior& prior, const StereoView& view, double sigma_px, NormalEquations& equations) {
+void addPriors(const MotionPrior& prior, const StereoView& view, double sigma_px,
+               NormalEquations& equations) {
   // Image residuals are weighted as if their noise were 1 px; priors have to follow.
   NormalEquations added;
   if (prior.R_camera_previous) {
@@ -80,8 +81,8 @@ Vector6d extrapolatedTwist(const Eigen::Isometry3d& T_camera_previous, double in
   return 1.5 * mean - 0.5 * *previous_twist;
 }
 
-bool viewResidual(const StereoCalibration& calibration, const StereoView& view, const Eigen::Vector3d& p_world,
-                  const StereoObservation& seen, ViewResidual& residual) {
+bool viewResidual(const StereoCalibration& calibration, const StereoView& view,
+                  const Eigen::Vector3d& p_world, const StereoObservation& seen, ViewResidual& residual) {
   const Eigen::Vector3d p_camera = view.T_camera_world * p_world;
   if (p_camera.z() < kNearestDepth_m) return false;
   residual = ViewResidual();
@@ -102,8 +103,8 @@ bool viewResidual(const StereoCalibration& calibration, const StereoView& view, 
   return true;
 }
 
-PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observations, const MotionPrior& prior,
-                                     const StereoView& guess) const {
+PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observations,
+                                     const MotionPrior& prior, const StereoView& guess) const {
   PoseEstimate estimate;
   estimate.view = guess;
   estimate.error_px.assign(observations.size(), std::numeric_limits<double>::infinity());
@@ -118,7 +119,8 @@ PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observat
     // Graduated: a wide loss first, so that a poor guess does not make outliers of good points.
     const double loss_px = params_.loss_px * std::max(1.0, 8.0 / (1 << iteration));
     for (const MapObservation& observation : observations) {
-      if (!viewResidual(calibration_, estimate.view, observation.p_world, observation.seen, residual)) continue;
+      if (!viewResidual(calibration_, estimate.view, observation.p_world, observation.seen, residual))
+        continue;
       const double weight = 1.0 / (1.0 + residual.error_px.squaredNorm() / (loss_px * loss_px));
       const Eigen::Matrix<double, 4, 6> weighted = weight * residual.by_pose;
       equations.information.topLeftCorner<6, 6>().noalias() += weighted.transpose() * residual.by_pose;
@@ -149,8 +151,7 @@ PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observat
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const MapObservation& observation = observations[i];
     if (!viewResidual(calibration_, estimate.view, observation.p_world, observation.seen, residual)) continue;
-    estimate.error_px[i] =
-        std::max(residual.error_px.head<2>().norm(), residual.error_px.tail<2>().norm());
+    estimate.error_px[i] = std::max(residual.error_px.head<2>().norm(), residual.error_px.tail<2>().norm());
     if (estimate.error_px[i] > params_.max_error_px) continue;
     estimate.inlier[i] = true;
     ++estimate.inliers;

@@ -283,7 +283,8 @@ Eigen::Vector2d StereoOdometry::predictedPixel(std::size_t i, const StereoView& 
 
 Eigen::Matrix2f StereoOdometry::patchStep(std::size_t i, const StereoView& view) const {
   // The keyframe is the last of the window as long as the current frame has no pose.
-  const Eigen::Isometry3d T_keyframe_camera = window_.back().view.T_camera_world * view.T_camera_world.inverse();
+  const Eigen::Isometry3d T_keyframe_camera =
+      window_.back().view.T_camera_world * view.T_camera_world.inverse();
   const Eigen::Vector3d p_world = landmarks_[i].p_world();
   const double zoom =
       (view.T_camera_world * p_world).z() / (window_.back().view.T_camera_world * p_world).z();
@@ -293,11 +294,11 @@ Eigen::Matrix2f StereoOdometry::patchStep(std::size_t i, const StereoView& view)
   return (zoom * Eigen::Rotation2Dd(roll).toRotationMatrix()).cast<float>();
 }
 
-bool StereoOdometry::trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level,
-                              const Eigen::Matrix2f& step) {
+bool StereoOdometry::trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px,
+                              int top_level, const Eigen::Matrix2f& step) {
   Track& track = tracks_[i];
-  const auto match = tracker_.track(keyframe_image_, toCv(track.keyframe_px), images.left, toCv(guess_px),
-                                    top_level, step);
+  const auto match =
+      tracker_.track(keyframe_image_, toCv(track.keyframe_px), images.left, toCv(guess_px), top_level, step);
   track.found = match.has_value();
   if (match) track.seen.left_px = toEigen(match->px);
   return track.found;
@@ -312,7 +313,8 @@ void StereoOdometry::trackAll(const Images& images, const StereoView& predicted)
     track.inlier = false;
     track.found = false;
     if (!track.alive) continue;
-    if (twist_ && trackOne(images, i, predictedPixel(i, predicted), std::min(2, coarsest), patchStep(i, predicted)))
+    if (twist_ &&
+        trackOne(images, i, predictedPixel(i, predicted), std::min(2, coarsest), patchStep(i, predicted)))
       continue;
     trackOne(images, i, track.last_px, coarsest, Eigen::Matrix2f::Identity());
   }
@@ -374,18 +376,18 @@ void StereoOdometry::matchStereo(const Images& images, const StereoView& view, d
 
 void StereoOdometry::matchStereoOne(const Images& images, std::size_t i, const StereoView& view,
                                     double slack_px) {
-    Track& track = tracks_[i];
-    track.seen.has_right = false;
-    // Seen from where the feature is, not from where the map expects it.
-    const double depth_m = (view.T_camera_world * landmarks_[i].p_world()).z();
-    if (depth_m < kNearestDepth_m) return;
-    const Eigen::Vector2d guess =
-        transferToRight(calibration_, view.T_late_camera, track.seen.left_px, 1.0 / depth_m);
-    const auto match = stereo_.refine(images.left, images.right, view.T_late_camera, track.seen.left_px, guess,
-                                      slack_px);
-    if (!match) return;
-    track.seen.right_px = match->right_px;
-    track.seen.has_right = true;
+  Track& track = tracks_[i];
+  track.seen.has_right = false;
+  // Seen from where the feature is, not from where the map expects it.
+  const double depth_m = (view.T_camera_world * landmarks_[i].p_world()).z();
+  if (depth_m < kNearestDepth_m) return;
+  const Eigen::Vector2d guess =
+      transferToRight(calibration_, view.T_late_camera, track.seen.left_px, 1.0 / depth_m);
+  const auto match =
+      stereo_.refine(images.left, images.right, view.T_late_camera, track.seen.left_px, guess, slack_px);
+  if (!match) return;
+  track.seen.right_px = match->right_px;
+  track.seen.has_right = true;
 }
 
 std::vector<std::size_t> StereoOdometry::foundTracks() const {
@@ -409,9 +411,8 @@ std::vector<std::size_t> StereoOdometry::selectRigid(const StereoView& view, Fra
     points.push_back({last_view_.T_camera_world * landmarks_[i].p_world(),
                       leftRay(calibration_, seen.left_px) / depth.inverse_depth});
   }
-  const CliqueResult clique =
-      largestClique(buildNoisyRigidityGraph(params_.rigidity, calibration_, points),
-                    static_cast<std::size_t>(params_.clique_budget));
+  const CliqueResult clique = largestClique(buildNoisyRigidityGraph(params_.rigidity, calibration_, points),
+                                            static_cast<std::size_t>(params_.clique_budget));
   result.features_tracked = static_cast<std::uint32_t>(found.size());
   result.features_with_depth = static_cast<std::uint32_t>(with_depth.size());
   result.clique_size = static_cast<std::uint32_t>(clique.members.size());
@@ -440,7 +441,8 @@ PoseEstimate StereoOdometry::estimatePose(const std::vector<std::size_t>& select
 }
 
 void StereoOdometry::updateTwist(const Images& images, const MotionPrior& prior) {
-  const Eigen::Isometry3d T_camera_last = window_.back().view.T_camera_world * last_view_.T_camera_world.inverse();
+  const Eigen::Isometry3d T_camera_last =
+      window_.back().view.T_camera_world * last_view_.T_camera_world.inverse();
   if (images.skew_s() != 0.0) {
     twist_ = Vector6d(logMotion(window_.back().view.T_late_camera) / images.skew_s());
   } else {
@@ -465,13 +467,13 @@ void StereoOdometry::smoothPreviousSkew(const Images& images) {
   if (last_skew_s_ == 0.0 || !last_is_keyframe_ || window_.size() < 2) return;
   WindowFrame& previous = window_[window_.size() - 2];
   const double after_s = images.left_time_s - last_left_time_s_;
-  const Eigen::Isometry3d T_next = window_.back().view.T_camera_world * previous.view.T_camera_world.inverse();
+  const Eigen::Isometry3d T_next =
+      window_.back().view.T_camera_world * previous.view.T_camera_world.inverse();
   const Eigen::Matrix3d R_expected = previous.T_late_expected.linear();
   const Eigen::Vector3d rotation_sigma = previous.late_sigma.tail<3>();
-  previous.T_late_expected =
-      last_interval_s_ > 0.0
-          ? interpolatedMotion(T_next, after_s, T_last_before_, last_interval_s_, last_skew_s_)
-          : expMotion(logMotion(T_next) * last_skew_s_ / after_s);
+  previous.T_late_expected = last_interval_s_ > 0.0 ? interpolatedMotion(T_next, after_s, T_last_before_,
+                                                                         last_interval_s_, last_skew_s_)
+                                                    : expMotion(logMotion(T_next) * last_skew_s_ / after_s);
   // Midway between two known poses, under white acceleration.
   const double spread = std::sqrt(after_s * after_s * after_s / 48.0);
   previous.late_sigma.head<3>().setConstant(std::sqrt(params_.acceleration_density) * spread);
@@ -526,7 +528,8 @@ void StereoOdometry::replenish(const Images& images, FrameResult& result) {
   const StereoView& view = window_.back().view;
   const Eigen::Isometry3d T_world_camera = view.T_camera_world.inverse();
   // At the very start nothing is known of the motion between the stamps.
-  const double slack_px = window_.size() == 1 && window_.back().skewed ? epipolarSlack(window_.back().late_sigma) : 0.0;
+  const double slack_px =
+      window_.size() == 1 && window_.back().skewed ? epipolarSlack(window_.back().late_sigma) : 0.0;
   const std::vector<cv::Point2f> corners = detector_.detect(images.left.level(0), occupied);
   result.features_detected = static_cast<std::uint32_t>(corners.size());
   for (const cv::Point2f& corner : corners) {
@@ -585,10 +588,10 @@ void StereoOdometry::report(FrameResult& result) const {
     report.id = landmarks_[i].id;
     report.current_px = toCv(track.seen.left_px);
     report.previous_px = track.fresh ? report.current_px : toCv(track.last_px);
-    report.fate = track.fresh                  ? FeatureReport::Fate::kDetected
-                  : track.inlier               ? FeatureReport::Fate::kInlier
-                  : track.seen.has_right       ? FeatureReport::Fate::kRejected
-                                               : FeatureReport::Fate::kNoDepth;
+    report.fate = track.fresh            ? FeatureReport::Fate::kDetected
+                  : track.inlier         ? FeatureReport::Fate::kInlier
+                  : track.seen.has_right ? FeatureReport::Fate::kRejected
+                                         : FeatureReport::Fate::kNoDepth;
     report.p_camera = last_view_.T_camera_world * landmarks_[i].p_world();
     if (track.inlier && !track.fresh) ++result.inliers;
     result.features.push_back(report);

@@ -17,11 +17,12 @@ class Patch {
   static constexpr int kMaxWindow = 21;
 
   /// The `window` x `window` px around `centre`; `window` is odd. Nothing if the centre
-  /// leaves the image or the patch has too little texture: the smaller eigenvalue of its gradient moments, per px, must
-  /// be at least `min_texture` (grey levels per px, squared).
-  /// `step` is the way in the image per px of the patch: the patch as it is expected in the other image.
+  /// leaves the image or the patch has too little texture: the smaller eigenvalue of its gradient moments,
+  /// per px, must be at least `min_texture` (grey levels per px, squared). `step` is the way in the image per
+  /// px of the patch: the patch as it is expected in the other image.
   static std::optional<Patch> cut(const cv::Mat& image, const cv::Point2f& centre, int window,
-                                  double min_texture, const Eigen::Matrix2f& step = Eigen::Matrix2f::Identity());
+                                  double min_texture,
+                                  const Eigen::Matrix2f& step = Eigen::Matrix2f::Identity());
 
   struct Match {
     cv::Point2f px;
@@ -50,7 +51,7 @@ class Patch {
   alignas(16) Grid gradient_x_;
   alignas(16) Grid gradient_y_;
   alignas(16) std::array<std::int16_t, kMaxStride> mask_;  ///< 1 in the window, 0 in the padding
-  Eigen::Matrix3f inverse_moments_;  ///< of (gradient_x, gradient_y, intensity)
+  Eigen::Matrix3f inverse_moments_;                        ///< of (gradient_x, gradient_y, intensity)
   float intensity_norm_ = 0.0F;
 };
 

@@ -26,7 +26,8 @@ class PatchTracker {
 
   /// `guess` is where `px` of `from` is expected in `to`; `top_level` is the coarsest level of the search.
   /// `step` is how many px of `from`
-  /// a px of `to` is expected to span, as an axis each. Coarse levels only move the guess; level 0 decides. Nothing without enough texture or likeness.
+  /// a px of `to` is expected to span, as an axis each. Coarse levels only move the guess; level 0 decides.
+  /// Nothing without enough texture or likeness.
   std::optional<Patch::Match> track(const ImagePyramid& from, const cv::Point2f& px, const ImagePyramid& to,
                                     const cv::Point2f& guess, int top_level,
                                     const Eigen::Matrix2f& step = Eigen::Matrix2f::Identity()) const;

@@ -29,8 +29,8 @@ struct MotionPrior {
   std::optional<Eigen::Matrix3d> R_camera_previous;
   double rotation_sigma_rad = 1.0;
 
-  double skew_s = 0.0;       ///< right stamp minus left stamp; 0 leaves T_late_camera at identity
-  double interval_s = 0.0;   ///< since the previous frame
+  double skew_s = 0.0;      ///< right stamp minus left stamp; 0 leaves T_late_camera at identity
+  double interval_s = 0.0;  ///< since the previous frame
   /// Twist of the world in the camera frame (m/s, rad/s) at the previous frame, if it is known.
   std::optional<Vector6d> previous_twist;
   Vector6d twist_sigma = Vector6d::Ones();  ///< of the twist predicted from previous_twist and this motion
@@ -43,7 +43,7 @@ struct PoseEstimate {
   std::vector<double> error_px;            ///< per observation: the larger one of left and right
   std::vector<bool> inlier;                ///< error_px at most max_error_px
   std::size_t inliers = 0;
-  double rms_px = 0.0;     ///< per coordinate, over the inliers
+  double rms_px = 0.0;  ///< per coordinate, over the inliers
   bool converged = false;
 };
 
@@ -77,7 +77,7 @@ struct ViewResidual {
   Eigen::Matrix<double, 2, 6> by_late = Eigen::Matrix<double, 2, 6>::Zero();
   Eigen::Matrix<double, 4, 3> by_camera_point = Eigen::Matrix<double, 4, 3>::Zero();
 };
-bool viewResidual(const StereoCalibration& calibration, const StereoView& view, const Eigen::Vector3d& p_world,
-                  const StereoObservation& seen, ViewResidual& residual);
+bool viewResidual(const StereoCalibration& calibration, const StereoView& view,
+                  const Eigen::Vector3d& p_world, const StereoObservation& seen, ViewResidual& residual);
 
 }  // namespace stereo_nav::vo

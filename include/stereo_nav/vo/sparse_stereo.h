@@ -14,7 +14,7 @@ struct SparseStereoParams {
   int search_window_px = 11;
   double search_correlation = 0.7;
   double uniqueness = 0.95;
-  double max_epipolar_px = 2.0;
+  double max_epipolar_px = 1.5;
   double min_disparity_px = 0.1;
 
   void describe(ParameterVisitor& visitor);
@@ -47,8 +47,8 @@ class SparseStereoMatcher {
   /// Without a prediction: the whole range of disparities on a coarse level, then from there. Nothing if a
   /// second place looks nearly as alike.
   std::optional<StereoMatch> search(const ImagePyramid& left, const ImagePyramid& right,
-                                    const Eigen::Isometry3d& T_late_camera,
-                                    const Eigen::Vector2d& left_px, double slack_px) const;
+                                    const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
+                                    double slack_px) const;
 
  private:
   std::optional<StereoMatch> accept(const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,

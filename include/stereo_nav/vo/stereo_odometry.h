@@ -17,7 +17,7 @@ namespace stereo_nav::vo {
 
 struct KeyframeParams {
   int window = 12;
-  double min_tracked_share = 0.8;
+  double min_tracked_share = 0.6;
   double max_parallax_px = 20.0;
 
   void describe(ParameterVisitor& visitor);
@@ -65,7 +65,7 @@ class StereoOdometry : public Odometry {
     bool alive = true;       ///< may still be found in the next frame
     bool found = false;      ///< in the current frame
     bool inlier = false;
-    bool fresh = true;       ///< detected in the current frame
+    bool fresh = true;  ///< detected in the current frame
   };
   /// The two images of a frame with their times.
   struct Images {
@@ -125,7 +125,7 @@ class StereoOdometry : public Odometry {
   // The map. The world is the left camera of the first frame.
   std::vector<WindowFrame> window_;  ///< keyframes, oldest first, and the current frame at the end
   std::vector<Landmark> landmarks_;
-  std::vector<Track> tracks_;        ///< of the landmark with the same index
+  std::vector<Track> tracks_;  ///< of the landmark with the same index
   ImagePyramid keyframe_image_;
   std::size_t keyframe_inliers_ = 0;
   std::uint32_t keyframe_id_ = 0;

@@ -45,8 +45,8 @@ Eigen::Vector2d transferToRight(const StereoCalibration& calibration, const Eige
                                 const Eigen::Vector2d& left_px, double inverse_depth);
 
 struct Triangulation {
-  double inverse_depth;     ///< 1/m; <= 0 if the rays diverge
-  double epipolar_px;       ///< distance of the right pixel from where the point projects to, signed by row
+  double inverse_depth;  ///< 1/m; <= 0 if the rays diverge
+  double epipolar_px;    ///< distance of the right pixel from where the point projects to, signed by row
   double px_per_inverse_depth;  ///< how far the right pixel moves per 1/m: sigma = sigma_px / this
 };
 /// Depth along the ray of `left_px` that projects nearest to `right_px`, whatever the two stamps.

@@ -72,7 +72,8 @@ class WindowOptimizer {
   void addLandmark(const std::vector<WindowFrame>& window, const Landmark& landmark, std::size_t index);
   void addSkewPriors(const std::vector<WindowFrame>& window);
   void eliminate(const Elimination& elimination);
-  void apply(const Eigen::VectorXd& step, std::vector<WindowFrame>& window, std::vector<Landmark>& landmarks) const;
+  void apply(const Eigen::VectorXd& step, std::vector<WindowFrame>& window,
+             std::vector<Landmark>& landmarks) const;
 
   WindowOptimizerParams params_;
   StereoCalibration calibration_;
@@ -80,7 +81,8 @@ class WindowOptimizer {
   Eigen::VectorXd gradient_;
   std::vector<Elimination> eliminations_;
   std::vector<CrossBlock> blocks_;
-  std::vector<Eigen::Index> late_at_;  ///< first variable of T_late_camera per frame; negative where there is none
+  std::vector<Eigen::Index>
+      late_at_;  ///< first variable of T_late_camera per frame; negative where there is none
 };
 
 }  // namespace stereo_nav::vo

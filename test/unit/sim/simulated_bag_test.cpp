@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "sim_test_support.h"
+#include "stereo_nav/eval/trajectory.h"
 #include "stereo_nav/ros_io/recording.h"
 
 namespace stereo_nav::tools {
@@ -63,9 +64,9 @@ TEST(SimulatedBag, IsARecordingWithTruePairsImuTransformsAndTruth) {
 
 TEST(SimulatedBag, SaysWhatItCannotWrite) {
   const sim::Simulation simulation(shortScenario(), sim::thesisRig(), 1);
-  EXPECT_THROW(writeSimulatedBag("/nonexistent/x.bag", simulation, {0.1, 1, true, false},
+  EXPECT_THROW(writeSimulatedBag("/dev/null/x.bag", simulation, {0.1, 1, true, false},
                                  [](std::size_t, std::size_t) {}),
-               ros_io::InputError);
+               eval::EvaluationError);
 }
 
 }  // namespace

@@ -1,0 +1,171 @@
+// Time per stage and per frame of the stereo odometry, and the floor that OpenCV sets for the same work:
+//   taskset -c 1 build/devel/lib/stereo_nav/stereo_nav_bench
+// Images are synthetic noise, moved from frame to frame: nothing to download, and every size alike.
+#include <benchmark/benchmark.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include "stereo_nav/vo/stereo_odometry.h"
+
+namespace {
+
+using namespace stereo_nav::vo;
+
+constexpr double kDisparity_px = 12.0;
+constexpr int kSteps = 40;
+
+/// Noise of several octaves, wide enough to pan over it.
+cv::Mat makeTexture(const cv::Size& size) {
+  cv::RNG random(7);
+  cv::Mat sum(size, CV_32FC1, cv::Scalar(0));
+  for (const int octave : {2, 4, 8, 16}) {
+    cv::Mat noise(size.height / octave + 1, size.width / octave + 1, CV_32FC1);
+    random.fill(noise, cv::RNG::NORMAL, 0.0, 30.0);
+    cv::resize(noise, noise, size, 0, 0, cv::INTER_CUBIC);
+    sum += noise;
+  }
+  cv::Mat image;
+  sum.convertTo(image, CV_8UC1, 0.7, 128.0);
+  return image;
+}
+
+StereoCalibration calibrationOf(const benchmark::State& state) {
+  StereoCalibration calibration;
+  calibration.width = static_cast<int>(state.range(0));
+  calibration.height = static_cast<int>(state.range(1));
+  calibration.fx = calibration.fy = 0.6 * calibration.width;
+  calibration.cx = calibration.right_cx = 0.5 * calibration.width;
+  calibration.cy = 0.5 * calibration.height;
+  calibration.baseline_m = 0.12;
+  return calibration;
+}
+
+/// A wall that is passed sideways, back and forth.
+class Pan {
+ public:
+  explicit Pan(const StereoCalibration& calibration)
+      : size_(calibration.width, calibration.height),
+        texture_(makeTexture({calibration.width + 400, calibration.height})) {}
+
+  StereoFrame next() {
+    const int step = frame_ % (2 * kSteps);
+    const int x = 3 * (step < kSteps ? step : 2 * kSteps - step);
+    StereoFrame frame;
+    frame.left_time_s = frame.right_time_s = 0.05 * frame_++;
+    frame.left = texture_(cv::Rect(x, 0, size_.width, size_.height)).clone();
+    frame.right =
+        texture_(cv::Rect(x + static_cast<int>(kDisparity_px), 0, size_.width, size_.height)).clone();
+    return frame;
+  }
+
+ private:
+  cv::Size size_;
+  cv::Mat texture_;
+  int frame_ = 0;
+};
+
+void sizes(benchmark::internal::Benchmark* bench) {
+  bench->Args({320, 240})
+      ->Args({640, 480})
+      ->Args({752, 480})
+      ->Args({1226, 370})
+      ->Unit(benchmark::kMillisecond);
+}
+
+void wholeFrame(benchmark::State& state, int features) {
+  cv::setNumThreads(1);
+  const StereoCalibration calibration = calibrationOf(state);
+  StereoParams params;
+  params.corners.features = features;
+  params.corners.cells = features * 3 / 2;
+  StereoOdometry odometry(params, calibration, Eigen::Matrix3d::Identity());
+  Pan pan(calibration);
+  double inliers = 0.0;
+  for (int i = 0; i < 5; ++i) odometry.process(pan.next());
+  for (auto _ : state) {
+    state.PauseTiming();
+    const StereoFrame frame = pan.next();
+    state.ResumeTiming();
+    inliers += odometry.process(frame).inliers;
+  }
+  state.counters["inliers"] = inliers / static_cast<double>(state.iterations());
+}
+BENCHMARK_CAPTURE(wholeFrame, features_150, 150)->Apply(sizes);
+BENCHMARK_CAPTURE(wholeFrame, features_200, 200)->Apply(sizes);
+BENCHMARK_CAPTURE(wholeFrame, features_1000, 1000)->Apply(sizes);
+
+/// Both pyramids, one FAST pass, one forward and one left-right KLT of 200 points.
+void opencvFloor(benchmark::State& state) {
+  cv::setNumThreads(1);
+  const StereoCalibration calibration = calibrationOf(state);
+  const PatchTrackerParams params;
+  Pan pan(calibration);
+  const StereoFrame before = pan.next();
+  const StereoFrame now = pan.next();
+  std::vector<cv::Point2f> points;
+  for (const cv::Point2f& px :
+       GridCornerDetector(GridCornerDetectorParams(), before.left.size()).detect(before.left, {})) {
+    points.push_back(px);
+  }
+  const cv::Size window(params.window_px, params.window_px);
+  const int levels = 3;
+  const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, params.iterations,
+                                  params.min_step_px);
+  std::vector<cv::Mat> previous;
+  cv::buildOpticalFlowPyramid(before.left, previous, window, levels);
+  for (auto _ : state) {
+    std::vector<cv::Mat> left;
+    std::vector<cv::Mat> right;
+    cv::buildOpticalFlowPyramid(now.left, left, window, levels);
+    cv::buildOpticalFlowPyramid(now.right, right, window, levels);
+    std::vector<cv::KeyPoint> corners;
+    cv::FAST(now.left, corners, 20, true);
+    std::vector<cv::Point2f> found;
+    std::vector<uchar> status;
+    std::vector<float> error;
+    cv::calcOpticalFlowPyrLK(previous, left, points, found, status, error, window, levels, criteria);
+    cv::calcOpticalFlowPyrLK(left, right, points, found, status, error, window, levels, criteria);
+    benchmark::DoNotOptimize(found.data());
+  }
+}
+BENCHMARK(opencvFloor)->Apply(sizes);
+
+void pyramid(benchmark::State& state) {
+  cv::setNumThreads(1);
+  const StereoFrame frame = Pan(calibrationOf(state)).next();
+  for (auto _ : state) benchmark::DoNotOptimize(ImagePyramid(frame.left, 4));
+}
+BENCHMARK(pyramid)->Apply(sizes);
+
+void detect(benchmark::State& state) {
+  cv::setNumThreads(1);
+  const StereoFrame frame = Pan(calibrationOf(state)).next();
+  GridCornerDetector detector(GridCornerDetectorParams(), frame.left.size());
+  for (auto _ : state) benchmark::DoNotOptimize(detector.detect(frame.left, {}));
+}
+BENCHMARK(detect)->Apply(sizes);
+
+void stereoSearch(benchmark::State& state) {
+  cv::setNumThreads(1);
+  const StereoCalibration calibration = calibrationOf(state);
+  const StereoFrame frame = Pan(calibration).next();
+  const ImagePyramid left(frame.left, 4);
+  const ImagePyramid right(frame.right, 4);
+  const auto corners =
+      GridCornerDetector(GridCornerDetectorParams(), frame.left.size()).detect(frame.left, {});
+  const SparseStereoMatcher matcher(SparseStereoParams(), calibration);
+  for (auto _ : state) {
+    for (const cv::Point2f& px : corners) {
+      const Eigen::Vector2d left_px(static_cast<double>(px.x), static_cast<double>(px.y));
+      benchmark::DoNotOptimize(matcher.search(left, right, Eigen::Isometry3d::Identity(), left_px, 0.0));
+    }
+  }
+}
+BENCHMARK(stereoSearch)->Apply(sizes);
+
+}  // namespace
+
+BENCHMARK_MAIN();

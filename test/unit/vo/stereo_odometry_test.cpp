@@ -1,0 +1,158 @@
+#include "stereo_nav/vo/stereo_odometry.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "support/textured_room.h"
+
+namespace stereo_nav::vo {
+namespace {
+
+constexpr double kPeriod_s = 0.1;
+constexpr int kFrames = 12;
+
+/// Drives through the textured room; both images are rendered at their own times.
+class StereoOdometryTest : public ::testing::Test {
+ protected:
+  StereoFrame frameAt(double time_s, double skew_s = 0.0) const {
+    StereoFrame frame;
+    frame.left_time_s = time_s;
+    frame.right_time_s = time_s + skew_s;
+    const auto pair = room.renderPair(test::roomDrive(time_s), test::roomDrive(time_s + skew_s), calibration);
+    frame.left = pair.left;
+    frame.right = pair.right;
+    return frame;
+  }
+
+  std::vector<StereoFrame> course(double skew_s = 0.0) const {
+    std::vector<StereoFrame> frames;
+    for (int i = 0; i < kFrames; ++i) frames.push_back(frameAt(kPeriod_s * i, skew_s));
+    return frames;
+  }
+
+  static FrameResult drive(Odometry& odometry, const std::vector<StereoFrame>& frames) {
+    FrameResult result;
+    for (const StereoFrame& frame : frames) result = odometry.process(frame);
+    return result;
+  }
+
+  /// Distance from the truth at the end of the course, m.
+  static double endError(const FrameResult& result) {
+    const Eigen::Isometry3d truth =
+        test::roomDrive(0.0).inverse() * test::roomDrive(kPeriod_s * (kFrames - 1));
+    return (result.T_start_camera.translation() - truth.translation()).norm();
+  }
+
+  StereoOdometry odometry() const { return {StereoParams(), calibration, Eigen::Matrix3d::Identity()}; }
+
+  test::TexturedRoom room;
+  StereoCalibration calibration = test::roomCalibration();
+};
+
+TEST_F(StereoOdometryTest, FollowsADrive) {
+  StereoOdometry vo = odometry();
+  EXPECT_FALSE(vo.usesDisparityMap());
+  const FrameResult result = drive(vo, course());
+  ASSERT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_LT(endError(result), 0.01);  // of 0.44 m
+  EXPECT_GE(result.inliers, 50u);
+  EXPECT_LT(result.reprojection_error_px, 0.5);
+  const double sigma_m = std::sqrt(result.motion_covariance.topLeftCorner<3, 3>().trace());
+  EXPECT_GT(sigma_m, 1e-5);
+  EXPECT_LT(sigma_m, 0.02);
+}
+
+TEST_F(StereoOdometryTest, FollowsADriveWithARightCameraThatIsHalfAFrameLate) {
+  StereoOdometry vo = odometry();
+  const FrameResult result = drive(vo, course(0.05));
+  ASSERT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_TRUE(result.skew_compensated);
+  EXPECT_LT(endError(result), 0.015);
+}
+
+TEST_F(StereoOdometryTest, FollowsADriveWithARightCameraThatIsEarly) {
+  StereoOdometry vo = odometry();
+  const FrameResult result = drive(vo, course(-0.04));
+  ASSERT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_LT(endError(result), 0.015);
+}
+
+TEST_F(StereoOdometryTest, StandsStillWithoutDrift) {
+  StereoOdometry vo = odometry();
+  drive(vo, course());
+  const StereoFrame last = frameAt(kPeriod_s * (kFrames - 1));
+  FrameResult first;
+  FrameResult result;
+  for (int i = 0; i < 30; ++i) {
+    StereoFrame frame = last;
+    frame.left_time_s = frame.right_time_s = kPeriod_s * (kFrames + i);
+    result = vo.process(frame);
+    ASSERT_EQ(result.state, State::kTracking) << result.reason;
+    if (i == 0) first = result;
+  }
+  const Eigen::Isometry3d drift = first.T_start_camera.inverse() * result.T_start_camera;
+  EXPECT_LT(drift.translation().norm(), 1e-3);
+  EXPECT_LT(Eigen::AngleAxisd(drift.linear()).angle(), 1e-3);
+}
+
+TEST_F(StereoOdometryTest, ReportsDarknessAndRecovers) {
+  StereoOdometry vo = odometry();
+  const FrameResult before = drive(vo, course());
+  StereoFrame dark = frameAt(kPeriod_s * kFrames);
+  dark.left.setTo(0);
+  dark.right.setTo(0);
+  for (int i = 0; i < 6; ++i) {
+    dark.left_time_s = dark.right_time_s = kPeriod_s * (kFrames + i);
+    const FrameResult result = vo.process(dark);
+    EXPECT_EQ(result.state, State::kLost);
+    EXPECT_NE(result.reason.find("dark"), std::string::npos) << result.reason;
+    EXPECT_EQ(result.T_start_camera.matrix(), before.T_start_camera.matrix()) << "no invented motion";
+  }
+  StereoFrame light = frameAt(kPeriod_s * (kFrames - 1));
+  light.left_time_s = light.right_time_s = kPeriod_s * (kFrames + 7);
+  vo.process(light);
+  light.left_time_s = light.right_time_s = kPeriod_s * (kFrames + 8);
+  EXPECT_EQ(vo.process(light).state, State::kTracking);
+}
+
+TEST_F(StereoOdometryTest, EqualInputGivesEqualOutput) {
+  StereoOdometry one = odometry();
+  StereoOdometry other = odometry();
+  const auto frames = course();
+  const FrameResult result = drive(one, frames);
+  drive(other, frames);
+  other.reset();
+  EXPECT_EQ(drive(other, frames).T_start_camera.matrix(), result.T_start_camera.matrix());
+}
+
+TEST_F(StereoOdometryTest, AWrongBiasOfTheRatesDoesNotTurnIt) {
+  StereoOdometry vo = odometry();
+  FrameResult result;
+  for (int i = 0; i < kFrames; ++i) {
+    for (int k = 0; k <= 10; ++k) {
+      ImuSample sample;
+      sample.time_s = kPeriod_s * (i - 1) + 0.01 * k;
+      const Eigen::Matrix3d turn =
+          (test::roomDrive(sample.time_s).inverse() * test::roomDrive(sample.time_s + 0.01)).linear();
+      sample.angular_velocity = logRotation(turn) / 0.01 + Eigen::Vector3d(0.08, -0.05, 0.06);
+      vo.addImu(sample);
+    }
+    result = vo.process(frameAt(kPeriod_s * i));
+  }
+  ASSERT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_LT(endError(result), 0.01);
+}
+
+TEST_F(StereoOdometryTest, RefusesImagesOfAnotherSizeOrType) {
+  StereoOdometry vo = odometry();
+  StereoFrame frame = frameAt(0.0);
+  frame.right = cv::Mat();
+  EXPECT_THROW(vo.process(frame), std::invalid_argument);
+  frame = frameAt(0.0);
+  frame.left = frame.left(cv::Rect(0, 0, 100, 100)).clone();
+  EXPECT_THROW(vo.process(frame), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace stereo_nav::vo
