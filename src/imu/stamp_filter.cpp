@@ -7,6 +7,8 @@ namespace {
 
 /// Arrivals that stay late this long are not batched but renumbered.
 constexpr double kStepWatch_s = 0.5;
+/// No arrival for longer than this: the program slept, or the module did.
+constexpr double kSilence_s = 0.1;
 /// Stamps keep at least this share of the period between them when the line is re-estimated.
 constexpr double kMinStep = 0.1;
 
@@ -78,15 +80,17 @@ void StampFilter::addToWindow(double x, double arrival_s) {
   younger_.add(x, arrival_s);
 }
 
-/// Waits from the first late arrival on: frames that queued while this program slept come all at once.
+/// Waits from the first late arrival on, anew after each silence: frames that queued while this program slept
+/// come late, all at once, and say nothing about what the module lost.
 void StampFilter::watchForStep(double late_s, double threshold_s, double arrival_s) {
   if (late_s <= threshold_s) {
     late_since_s_.reset();
-  } else if (!late_since_s_) {
+  } else if (!late_since_s_ || arrival_s - last_arrival_s_ > kSilence_s) {
     late_since_s_ = arrival_s;
   } else if (arrival_s - *late_since_s_ > kStepWatch_s) {
     beginWindow();
   }
+  last_arrival_s_ = arrival_s;
 }
 
 }  // namespace stereo_nav::imu

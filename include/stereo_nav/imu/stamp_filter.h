@@ -59,6 +59,7 @@ class StampFilter {
   double first_x_ = 0.0, first_arrival_s_ = 0.0;
   double slope_span_s_ = 0.0;  ///< what the slope was measured over; 0 before the first settled window
   std::optional<double> late_since_s_;
+  double last_arrival_s_ = 0.0;
 };
 
 }  // namespace stereo_nav::imu
