@@ -12,7 +12,7 @@ struct RigidityParams {
   enum class Test {
     kDistance,  ///< | |w_i - w_j|_now - |w_i - w_j|_before | < threshold: the thesis' text, Howard 2008
     kPerAxis,   ///< |(w_i - w_j)_before[k] - (w_i - w_j)_now[k]| < threshold for k = x, y, z: the thesis'
-               ///< listing, not invariant to rotation
+                ///< listing, not invariant to rotation
   };
   Test test = Test::kDistance;
   double threshold_m = 0.08;
