@@ -104,8 +104,7 @@ if step "$build_dir" "build" "$STEREO_NAV_ROOT/scripts/build.sh" --tests "$build
     say "what is installed"
     "$STEREO_NAV_ROOT/scripts/lib/install_checks.sh" "$build_dir" | tee "$build_dir/test_results/install.tap" || true
   fi
-  # Leaks are left out: rosbag, OpenCV and the ROS libraries keep allocations until the process ends.
-  export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0:detect_stack_use_after_return=1:strict_string_checks=1}
+  export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1:strict_string_checks=1}
   export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
   if $sanitize; then sanitized_tests "$build_dir-asan" address,undefined; fi
   if $tsan; then sanitized_tests "$build_dir-tsan" thread -L tsan; fi
