@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "imu_source.h"
+#include "program.h"
 #include "stereo_nav/imu/calibration.h"
 
 namespace stereo_nav::tools {
@@ -116,10 +117,5 @@ int run(int argc, char** argv) {
 }  // namespace stereo_nav::tools
 
 int main(int argc, char** argv) {
-  try {
-    return stereo_nav::tools::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "calibrate_imu: " << error.what() << "\n";
-    return 2;
-  }
+  return stereo_nav::tools::runProgram("calibrate_imu", stereo_nav::tools::run, argc, argv);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "package_files.h"
+#include "program.h"
 #include "stereo_nav/params/parameters.h"
 #include "stereo_nav/ros_io/recording.h"
 #include "stereo_nav/ros_io/stereo_processing.h"
@@ -47,12 +48,8 @@ std::optional<Options> parse(int argc, char** argv) {
   po::positional_options_description positional;
   positional.add("bag", 1);
   po::variables_map values;
-  try {
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
-    po::notify(values);
-  } catch (const po::error& error) {
-    throw ros_io::InputError(std::string(error.what()) + "; see depth_at --help");
-  }
+  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
+  po::notify(values);
   if (values.count("help") != 0) {
     std::cout << visible << "\n";
     return std::nullopt;
@@ -133,10 +130,5 @@ int run(int argc, char** argv) {
 }  // namespace stereo_nav::tools
 
 int main(int argc, char** argv) {
-  try {
-    return stereo_nav::tools::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "depth_at: %s\n", error.what());
-    return 2;
-  }
+  return stereo_nav::tools::runProgram("depth_at", stereo_nav::tools::run, argc, argv);
 }

@@ -8,6 +8,7 @@
 
 #include "evaluate_options.h"
 #include "evaluate_run.h"
+#include "program.h"
 #include "stereo_nav/eval/atomic_file.h"
 #include "stereo_nav/eval/report.h"
 
@@ -73,10 +74,5 @@ int run(int argc, char** argv) {
 }  // namespace stereo_nav::tools
 
 int main(int argc, char** argv) {
-  try {
-    return stereo_nav::tools::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "evaluate: %s\n", error.what());
-    return 2;
-  }
+  return stereo_nav::tools::runProgram("evaluate", stereo_nav::tools::run, argc, argv);
 }

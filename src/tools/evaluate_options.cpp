@@ -46,12 +46,8 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
   positional.add("bag", 1);
 
   po::variables_map values;
-  try {
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
-    po::notify(values);
-  } catch (const po::error& error) {
-    throw ros_io::InputError(std::string(error.what()) + "; see evaluate --help");
-  }
+  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
+  po::notify(values);
   if (values.count("help") != 0) {
     std::cout << visible << "\n";
     return std::nullopt;

@@ -12,6 +12,7 @@
 
 #include "import/derived_sequence.h"
 #include "import/sequence_bag.h"
+#include "program.h"
 #include "stereo_nav/eval/atomic_file.h"
 #include "stereo_nav/ros_io/conversions.h"
 
@@ -150,12 +151,5 @@ void interrupt(int /*signal*/) {
 int main(int argc, char** argv) {
   signal(SIGINT, stereo_nav::tools::interrupt);
   signal(SIGTERM, stereo_nav::tools::interrupt);
-  try {
-    return stereo_nav::tools::run(argc, argv);
-  } catch (const boost::program_options::error& error) {
-    std::fprintf(stderr, "import_sequence: %s; see import_sequence --help\n", error.what());
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "import_sequence: %s\n", error.what());
-  }
-  return 2;
+  return stereo_nav::tools::runProgram("import_sequence", stereo_nav::tools::run, argc, argv);
 }

@@ -9,6 +9,7 @@
 
 #include "../eval/gnuplot.h"
 #include "imu_source.h"
+#include "program.h"
 #include "stereo_nav/eval/atomic_file.h"
 #include "stereo_nav/imu/allan_deviation.h"
 #include "stereo_nav/imu/drift.h"
@@ -195,10 +196,5 @@ int run(int argc, char** argv) {
 }  // namespace stereo_nav::tools
 
 int main(int argc, char** argv) {
-  try {
-    return stereo_nav::tools::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "imu_drift: " << error.what() << "\n";
-    return 2;
-  }
+  return stereo_nav::tools::runProgram("imu_drift", stereo_nav::tools::run, argc, argv);
 }

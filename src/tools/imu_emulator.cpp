@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "imu_emulator_options.h"
+#include "program.h"
 #include "stereo_nav/imu/emulation/pseudo_terminal.h"
 #include "stereo_nav/imu/emulation/serial_line.h"
 #include "stereo_nav/imu/imu_device.h"
@@ -216,10 +217,5 @@ int run(int argc, char** argv) {
 }  // namespace stereo_nav::tools
 
 int main(int argc, char** argv) {
-  try {
-    return stereo_nav::tools::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "imu_emulator: " << error.what() << "\n";
-    return 2;
-  }
+  return stereo_nav::tools::runProgram("imu_emulator", stereo_nav::tools::run, argc, argv);
 }

@@ -137,17 +137,13 @@ std::optional<EmulatorOptions> parseEmulatorOptions(int argc, char** argv) {
   EmulatorOptions options;
   const po::options_description visible = describeOptions(options);
   po::variables_map values;
-  try {
-    // Negative numbers are values, not options; there are no short options but -h.
-    po::store(po::command_line_parser(argc, argv)
-                  .options(visible)
-                  .style(po::command_line_style::unix_style ^ po::command_line_style::allow_short)
-                  .run(),
-              values);
-    po::notify(values);
-  } catch (const po::error& error) {
-    throw std::runtime_error(std::string(error.what()) + "; see imu_emulator --help");
-  }
+  // Negative numbers are values, not options; there are no short options but -h.
+  po::store(po::command_line_parser(argc, argv)
+                .options(visible)
+                .style(po::command_line_style::unix_style ^ po::command_line_style::allow_short)
+                .run(),
+            values);
+  po::notify(values);
   if (values.count("help") != 0) {
     std::cout << visible << "\n";
     return std::nullopt;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "program.h"
 #include "simulate_options.h"
 #include "simulated_bag.h"
 
@@ -30,10 +31,5 @@ int run(int argc, char** argv) {
 }  // namespace stereo_nav::tools
 
 int main(int argc, char** argv) {
-  try {
-    return stereo_nav::tools::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "simulate: %s\n", error.what());
-    return 2;
-  }
+  return stereo_nav::tools::runProgram("simulate", stereo_nav::tools::run, argc, argv);
 }

@@ -68,12 +68,8 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
   positional.add("scenario", 1);
 
   po::variables_map values;
-  try {
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
-    po::notify(values);
-  } catch (const po::error& error) {
-    throw ros_io::InputError(std::string(error.what()) + "; see simulate --help");
-  }
+  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
+  po::notify(values);
   if (values.count("help") != 0) {
     std::cout << visible << "\n";
     return std::nullopt;
