@@ -18,5 +18,8 @@ if(STEREO_NAV_SANITIZE)
   # The assertions of Eigen and of the standard library are part of what such a build is for.
   add_compile_options(-fsanitize=${STEREO_NAV_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1 -O1
     -UNDEBUG -D_GLIBCXX_ASSERTIONS)
+  # Under AddressSanitizer Eigen would allocate in its own way, and memory of ours would be freed in the plain way by an
+  # equal template instantiation that the loader takes from a system library (liborocos-kdl has LDLT<MatrixXd>).
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
   add_link_options(-fsanitize=${STEREO_NAV_SANITIZE})
 endif()
