@@ -6,6 +6,8 @@
 namespace stereo_nav::vo {
 namespace {
 
+constexpr double kVague_px = 0.5;  ///< of the row: a search from one level further up
+
 cv::Point2f toCv(const Eigen::Vector2d& px) {
   return {static_cast<float>(px.x()), static_cast<float>(px.y())};
 }
@@ -18,6 +20,7 @@ Eigen::Vector2d toEigen(const cv::Point2f& px) {
 
 void SparseStereoParams::describe(ParameterVisitor& visitor) {
   visitSection(visitor, "refinement", refinement);
+  visitSection(visitor, "epipolar_error", epipolar_error);
   visitor.real("max_disparity_share", max_disparity_share, {0.01, 1.0}, "",
                "largest disparity searched, as a share of the image width");
   visitor.integer("search_window_px", search_window_px, {3, Patch::kMaxWindow}, "px",
@@ -37,17 +40,31 @@ SparseStereoMatcher::SparseStereoMatcher(const SparseStereoParams& params,
     : params_(params),
       calibration_(calibration),
       tracker_(params.refinement),
+      epipolar_error_(params.epipolar_error, calibration),
       search_level_(calibration.width >= 600 ? 2 : 1) {}
 
 std::optional<StereoMatch> SparseStereoMatcher::accept(const Eigen::Isometry3d& T_late_camera,
                                                        const Eigen::Vector2d& left_px,
                                                        const Eigen::Vector2d& right_px,
                                                        double slack_px) const {
-  const Triangulation depth = triangulate(calibration_, T_late_camera, left_px, right_px);
-  if (!(std::abs(depth.epipolar_px) <= params_.max_epipolar_px + slack_px)) return std::nullopt;
+  const Eigen::Vector2d straight_px = right_px - epipolar_error_.at(right_px);
+  const Triangulation depth = triangulate(calibration_, T_late_camera, left_px, straight_px);
+  if (!(std::abs(depth.epipolar_px) <= params_.max_epipolar_px + slack_px + epipolar_error_.slack_px()))
+    return std::nullopt;
   const double least = params_.min_disparity_px / (calibration_.fx * calibration_.baseline_m);
   if (!(depth.inverse_depth >= least)) return std::nullopt;
-  return StereoMatch{right_px, depth};
+  return StereoMatch{straight_px, depth};
+}
+
+std::optional<StereoMatch> SparseStereoMatcher::align(const ImagePyramid& left, const ImagePyramid& right,
+                                                      const Eigen::Isometry3d& T_late_camera,
+                                                      const Eigen::Vector2d& left_px,
+                                                      const Eigen::Vector2d& start_px,
+                                                      double slack_px) const {
+  const bool is_vague = slack_px + epipolar_error_.slack_px() > kVague_px;
+  const auto match = tracker_.track(left, toCv(left_px), right, toCv(start_px), is_vague ? 2 : 1);
+  if (!match) return std::nullopt;
+  return accept(T_late_camera, left_px, toEigen(match->px), slack_px);
 }
 
 std::optional<StereoMatch> SparseStereoMatcher::refine(const ImagePyramid& left, const ImagePyramid& right,
@@ -56,16 +73,15 @@ std::optional<StereoMatch> SparseStereoMatcher::refine(const ImagePyramid& left,
                                                        const Eigen::Vector2d& guess_px,
                                                        double slack_px) const {
   if (!guess_px.allFinite()) return std::nullopt;
-  const auto match = tracker_.track(left, toCv(left_px), right, toCv(guess_px), slack_px > 0.0 ? 2 : 1);
-  if (!match) return std::nullopt;
-  return accept(T_late_camera, left_px, toEigen(match->px), slack_px);
+  return align(left, right, T_late_camera, left_px, withRowError(guess_px), slack_px);
 }
 
 std::optional<StereoMatch> SparseStereoMatcher::search(const ImagePyramid& left, const ImagePyramid& right,
                                                        const Eigen::Isometry3d& T_late_camera,
                                                        const Eigen::Vector2d& left_px,
                                                        double slack_px) const {
-  const auto row_tolerance = static_cast<int>((params_.max_epipolar_px + slack_px) / (1 << search_level_));
+  const double tolerance_px = params_.max_epipolar_px + slack_px + epipolar_error_.slack_px();
+  const auto row_tolerance = static_cast<int>(tolerance_px / (1 << search_level_));
   if (right.levels() <= search_level_) return std::nullopt;
   const float scale = 1.0F / static_cast<float>(1 << search_level_);
   const auto patch =
@@ -79,9 +95,9 @@ std::optional<StereoMatch> SparseStereoMatcher::search(const ImagePyramid& left,
   std::vector<cv::Point2f> places(likeness.size());
   std::size_t best = 0;
   for (std::size_t s = 0; s < likeness.size(); ++s) {
-    const cv::Point2f px = toCv(transferToRight(calibration_, T_late_camera, left_px,
-                                                static_cast<double>(s) * inverse_depth_step)) *
-                           scale;
+    const Eigen::Vector2d expected_px =
+        transferToRight(calibration_, T_late_camera, left_px, static_cast<double>(s) * inverse_depth_step);
+    const cv::Point2f px = toCv(withRowError(expected_px)) * scale;
     const auto x = static_cast<int>(std::lround(px.x));
     for (int dy = -row_tolerance; dy <= row_tolerance; ++dy) {
       const auto y = static_cast<int>(std::lround(px.y)) + dy;
@@ -101,7 +117,7 @@ std::optional<StereoMatch> SparseStereoMatcher::search(const ImagePyramid& left,
     if (peak && apart && likeness[s] > static_cast<float>(params_.uniqueness) * likeness[best])
       return std::nullopt;
   }
-  return refine(left, right, T_late_camera, left_px, toEigen(places[best] / scale), slack_px);
+  return align(left, right, T_late_camera, left_px, toEigen(places[best] / scale), slack_px);
 }
 
 }  // namespace stereo_nav::vo

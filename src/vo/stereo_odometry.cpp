@@ -71,6 +71,9 @@ void StereoParams::describe(ParameterVisitor& visitor) {
   visitSection(visitor, "tracking", tracking);
   visitSection(visitor, "stereo", stereo);
   visitSection(visitor, "rigidity", rigidity);
+  visitor.integer(
+      "clique_points", clique_points, {10, 5000}, "",
+      "most features among which the largest rigid set is searched; the work grows with its square");
   visitor.integer("clique_budget", clique_budget, {0, 10000000}, "",
                   "most nodes expanded in search of the largest rigid set");
   visitSection(visitor, "motion", motion);
@@ -113,6 +116,7 @@ void StereoOdometry::reset() {
   last_view_ = StereoView();
   twist_.reset();
   failures_ = 0;
+  stereo_.epipolarError().reset();
 }
 
 FrameResult StereoOdometry::process(const StereoFrame& frame) {
@@ -163,6 +167,7 @@ void StereoOdometry::startAt(const Images& images, const Eigen::Isometry3d& T_ca
   }
   last_view_ = first.view;
   makeKeyframe(images, result);
+  learnEpipolarErrorAtStart();
   last_is_keyframe_ = true;
   if (landmarks_.size() < static_cast<std::size_t>(params_.min_inliers)) {
     window_.clear();
@@ -241,6 +246,7 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   expectSkew(images, prior);
   smoothPreviousSkew(images);
   refineWindow();
+  learnEpipolarError();
   clock.lap("window");
   const Eigen::Isometry3d T_camera_last = window_.back().view.T_camera_world * T_world_last;
   if (prior.R_camera_previous) {
@@ -454,13 +460,26 @@ void StereoOdometry::appointVoters() {
   for (Track& track : tracks_) track.votes = proven(track);
 }
 
+std::vector<std::size_t> StereoOdometry::cliqueCandidates(const std::vector<std::size_t>& found) const {
+  std::vector<std::size_t> candidates;
+  for (const std::size_t i : found) {
+    if (tracks_[i].seen.has_right && tracks_[i].votes) candidates.push_back(i);
+  }
+  const auto most = static_cast<std::size_t>(params_.clique_points);
+  const std::size_t all = candidates.size();
+  if (all <= most) return candidates;
+  // Old and young ones alike: tracks are in the order of their detection.
+  for (std::size_t k = 0; k < most; ++k) candidates[k] = candidates[k * all / most];
+  candidates.resize(most);
+  return candidates;
+}
+
 std::vector<std::size_t> StereoOdometry::selectRigid(const StereoView& view, FrameResult& result) const {
   const std::vector<std::size_t> found = foundTracks();
   std::vector<std::size_t> with_depth;
   std::vector<RigidPoint> points;
-  for (const std::size_t i : found) {
+  for (const std::size_t i : cliqueCandidates(found)) {
     const StereoObservation& seen = tracks_[i].seen;
-    if (!seen.has_right || !tracks_[i].votes) continue;
     const Triangulation depth = triangulate(calibration_, view.T_late_camera, seen.left_px, seen.right_px);
     if (depth.inverse_depth <= 0.0) continue;
     with_depth.push_back(i);
@@ -547,6 +566,36 @@ void StereoOdometry::refineWindow() {
     if (tracks_[i].inlier) landmarks_[i].views.push_back({current, tracks_[i].seen});
   }
   optimizer_.optimise(window_, landmarks_);
+}
+
+void StereoOdometry::learnEpipolarError() {
+  const StereoView& view = window_.back().view;
+  EpipolarError& rows = stereo_.epipolarError();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const StereoObservation& seen = tracks_[i].seen;
+    ViewResidual residual;
+    if (!tracks_[i].inlier || !seen.has_right || seen.noise > 1.0 ||
+        !viewResidual(calibration_, view, landmarks_[i].p_world(), seen, residual))
+      continue;
+    rows.add(seen.right_px, residual.error_px(3) - residual.error_px(1) + rows.at(seen.right_px).y());
+  }
+  rows.learn();
+}
+
+void StereoOdometry::learnEpipolarErrorAtStart() {
+  if (window_.back().skewed) return;  // the motion between the stamps is not known yet
+  EpipolarError& rows = stereo_.epipolarError();
+  const EpipolarError before = rows;
+  for (const Track& track : tracks_) {
+    rows.add(track.seen.right_px,
+             track.seen.right_px.y() - track.seen.left_px.y() + before.at(track.seen.right_px).y());
+  }
+  rows.learn();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Eigen::Vector2d& right_px = tracks_[i].seen.right_px;
+    right_px -= rows.at(right_px) - before.at(right_px);
+    landmarks_[i].views.back().seen.right_px = right_px;
+  }
 }
 
 bool StereoOdometry::needsKeyframe() const {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "stereo_nav/params/parameter_visitor.h"
+#include "stereo_nav/vo/epipolar_error.h"
 #include "stereo_nav/vo/patch_tracker.h"
 #include "stereo_nav/vo/stereo_view.h"
 
@@ -10,6 +11,7 @@ namespace stereo_nav::vo {
 
 struct SparseStereoParams {
   PatchTrackerParams refinement = defaultRefinement();
+  EpipolarErrorParams epipolar_error;
   double max_disparity_share = 0.25;
   int search_window_px = 11;
   double search_correlation = 0.7;
@@ -28,13 +30,14 @@ struct SparseStereoParams {
 };
 
 struct StereoMatch {
-  Eigen::Vector2d right_px;
+  Eigen::Vector2d right_px;  ///< freed from the epipolar error known so far
   Triangulation depth;
 };
 
 /// Finds corners of the left image in the right one, to a fraction of a pixel and whatever the gain and
 /// offset between the two cameras. The search line bends with the motion between the two stamps;
-/// `slack_px` is how far off it may be because that motion is not known well, 0 for synchronous pairs.
+/// `slack_px` is how far off it may be because that motion is not known well, 0 for synchronous pairs. What
+/// the calibration's rows are off is learned by epipolarError() from the matches that the caller believes.
 class SparseStereoMatcher {
  public:
   SparseStereoMatcher(const SparseStereoParams& params, const StereoCalibration& calibration);
@@ -50,13 +53,21 @@ class SparseStereoMatcher {
                                     const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
                                     double slack_px) const;
 
+  EpipolarError& epipolarError() { return epipolar_error_; }
+  const EpipolarError& epipolarError() const { return epipolar_error_; }
+
  private:
+  Eigen::Vector2d withRowError(const Eigen::Vector2d& px) const { return px + epipolar_error_.at(px); }
+  std::optional<StereoMatch> align(const ImagePyramid& left, const ImagePyramid& right,
+                                   const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
+                                   const Eigen::Vector2d& start_px, double slack_px) const;
   std::optional<StereoMatch> accept(const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
                                     const Eigen::Vector2d& right_px, double slack_px) const;
 
   SparseStereoParams params_;
   StereoCalibration calibration_;
   PatchTracker tracker_;
+  EpipolarError epipolar_error_;
   int search_level_;
 };
 

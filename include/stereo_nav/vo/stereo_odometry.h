@@ -29,6 +29,7 @@ struct StereoParams {
   PatchTrackerParams tracking;
   SparseStereoParams stereo;
   NoisyRigidityParams rigidity;
+  int clique_points = 200;
   int clique_budget = 2000;
   PoseEstimatorParams motion;
   WindowOptimizerParams window;
@@ -112,6 +113,7 @@ class StereoOdometry : public Odometry {
   std::vector<std::size_t> foundTracks() const;
   PoseEstimate estimateFrom(const std::vector<std::size_t>& tracks, const MotionPrior& prior,
                             const StereoView& guess) const;
+  std::vector<std::size_t> cliqueCandidates(const std::vector<std::size_t>& found) const;
   std::vector<std::size_t> selectRigid(const StereoView& view, FrameResult& result) const;
   PoseEstimate estimatePose(const std::vector<std::size_t>& selected, const MotionPrior& prior,
                             const StereoView& guess);
@@ -119,6 +121,9 @@ class StereoOdometry : public Odometry {
   void expectSkew(const Images& images, const MotionPrior& prior);
   void smoothPreviousSkew(const Images& images);
   void refineWindow();
+  /// What the rows of the right image are off, from how the found features lie in both images.
+  void learnEpipolarError();
+  void learnEpipolarErrorAtStart();
   bool needsKeyframe() const;
   void makeKeyframe(const Images& images, FrameResult& result);
   void replenish(const Images& images, FrameResult& result);

@@ -165,6 +165,22 @@ TEST_F(StereoOdometryTest, IsNotCarriedAwayByWhatEntersTheView) {
   EXPECT_LT(endError(result), 0.02);
 }
 
+TEST_F(StereoOdometryTest, ARightCameraKnockedAfterItsCalibrationIsLearned) {
+  auto frames = course();
+  cv::Mat knock = cv::getRotationMatrix2D(
+      {static_cast<float>(calibration.cx), static_cast<float>(calibration.cy)}, 0.4, 1.0);
+  knock.at<double>(1, 2) += 2.5;
+  for (StereoFrame& frame : frames) {
+    cv::warpAffine(frame.right.clone(), frame.right, knock, frame.right.size(), cv::INTER_CUBIC,
+                   cv::BORDER_REPLICATE);
+  }
+  StereoOdometry vo = odometry();
+  const FrameResult result = drive(vo, frames);
+  ASSERT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_GE(result.inliers, 50u);
+  EXPECT_LT(endError(result), 0.015);
+}
+
 TEST_F(StereoOdometryTest, EqualInputGivesEqualOutput) {
   StereoOdometry one = odometry();
   StereoOdometry other = odometry();
