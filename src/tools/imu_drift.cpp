@@ -70,6 +70,7 @@ RestRecording recordFromBag(const Options& options) {
       const auto& q = message->orientation;
       recording.angles.push_back({time_s, imu::moduleFromOrientation({q.w, q.x, q.y, q.z})});
     }
+    if (message->angular_velocity_covariance[0] == -1.0) continue;
     const auto& w = message->angular_velocity;
     recording.rate_times_s.push_back(time_s);
     recording.rates.emplace_back(w.x, w.y, w.z);
