@@ -81,8 +81,7 @@ TEST(StereoCaptureNode, PublishesMatchingPairsAndSavesTheCalibration) {
   std::map<ros::Time, StereoSyncConstPtr> syncs;
   for (const auto& message : sync.messages) syncs[message->header.stamp] = message;
   std::size_t compared = 0;
-  const double monotonic_to_ros_s = 1e-9 * static_cast<double>(capture::linuxKernel().realtimeNow() -
-                                                               capture::linuxKernel().monotonicNow());
+  const double ros_minus_monotonic_s = rosMinusMonotonic_s();
   for (std::size_t i = 1; i < right.messages.size(); ++i) {
     const auto& image = right.messages[i];
     EXPECT_EQ(image->header.frame_id, "camera_left_optical");
@@ -96,7 +95,7 @@ TEST(StereoCaptureNode, PublishesMatchingPairsAndSavesTheCalibration) {
     // The feeder's time of the image, not the time of its arrival; only the clock's offset is measured.
     const double due_s =
         std::chrono::duration<double>((first + counter * kPeriod).time_since_epoch()).count();
-    EXPECT_NEAR(image->header.stamp.toSec(), due_s + monotonic_to_ros_s, 0.005);
+    EXPECT_NEAR(image->header.stamp.toSec(), due_s + ros_minus_monotonic_s, 0.005);
     ++compared;
   }
   EXPECT_GE(compared, 6u);

@@ -8,6 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include "stereo_nav/capture/clock_mapping.h"
+#include "stereo_nav/capture/kernel.h"
+
 namespace stereo_nav::test {
 
 /// All messages of a topic.
@@ -36,6 +39,13 @@ inline bool comesTrue(const std::function<bool()>& condition,
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return true;
+}
+
+/// What ROS time is ahead of the monotonic clock; a reading that was interrupted does not count.
+inline double rosMinusMonotonic_s() {
+  const capture::ClockMapping mapping([] { return capture::linuxKernel().monotonicNow(); },
+                                      [] { return capture::linuxKernel().realtimeNow(); });
+  return 1e-9 * static_cast<double>(mapping.offset_ns());
 }
 
 /// Private namespace of the capture node.

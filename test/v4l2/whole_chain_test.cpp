@@ -14,7 +14,6 @@
 #include <map>
 #include <mutex>
 
-#include "stereo_nav/capture/kernel.h"
 #include "stereo_nav/ros_io/recording.h"
 #include "stereo_nav/ros_io/topics.h"
 #include "support/node_process.h"
@@ -94,10 +93,8 @@ TEST(WholeChain, OdometryFromTheCamerasFollowsTheDrive) {
   const NodeProcess odometry_node({VISUAL_ODOMETRY, "__name:=visual_odometry"});
   ASSERT_TRUE(comesTrue([&] { return odometry.messages.size() >= 3; })) << "odometry of the standing robot";
 
-  const double ros_minus_monotonic_s = 1e-9 * static_cast<double>(capture::linuxKernel().realtimeNow() -
-                                                                  capture::linuxKernel().monotonicNow());
   const double first_s =
-      std::chrono::duration<double>(first.time_since_epoch()).count() + ros_minus_monotonic_s;
+      std::chrono::duration<double>(first.time_since_epoch()).count() + rosMinusMonotonic_s();
   const auto imageOfLatest = [&] {
     const double since_s = odometry.messages.back()->header.stamp.toSec() - first_s;
     return drive.imageOf(
