@@ -31,7 +31,7 @@ class Topic {
 /// Lets messages in until it comes true; false after a generous time: on a busy host the machine takes a
 /// minute to load a node's libraries.
 inline bool comesTrue(const std::function<bool()>& condition,
-                      std::chrono::seconds patience = std::chrono::seconds(180)) {
+                      std::chrono::seconds patience = std::chrono::seconds(300)) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
