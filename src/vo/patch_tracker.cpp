@@ -24,20 +24,21 @@ void PatchTrackerParams::describe(ParameterVisitor& visitor) {
 
 std::optional<Patch::Match> PatchTracker::track(const ImagePyramid& from, const cv::Point2f& px,
                                                 const ImagePyramid& to, const cv::Point2f& guess,
-                                                int top_level, const Eigen::Matrix2f& step) const {
+                                                int top_level, const Eigen::Matrix2f& step,
+                                                int finest_level) const {
   cv::Point2f position = guess;
   const int top = std::min({top_level, from.levels() - 1, to.levels() - 1});
-  for (int l = top; l >= 0; --l) {
+  for (int l = top; l >= finest_level; --l) {
     const float scale = 1.0F / static_cast<float>(1 << l);
-    // The coarse levels of a weakly textured patch may still help: only level 0 asks for texture.
+    // The coarse levels of a weakly textured patch may still help: only the finest one asks for texture.
     const auto patch =
         Patch::cut(from.level(l), px * scale, l == 0 ? params_.window_px : params_.coarse_window_px,
-                   l == 0 ? params_.min_texture : kCoarseTexture, step);
-    const auto match =
-        patch ? patch->align(to.level(l), position * scale, params_.iterations, params_.min_step_px)
-              : std::nullopt;
-    if (l > 0) {
-      if (match) position = match->px / scale;
+                   l == finest_level ? params_.min_texture : kCoarseTexture, step);
+    auto match = patch ? patch->align(to.level(l), position * scale, params_.iterations, params_.min_step_px)
+                       : std::nullopt;
+    if (match) match->px /= scale;
+    if (l > finest_level) {
+      if (match) position = match->px;
       continue;
     }
     if (match && match->correlation >= static_cast<float>(params_.min_correlation)) return match;

@@ -66,6 +66,37 @@ void addPriors(const MotionPrior& prior, const StereoView& view, double sigma_px
   equations.gradient += sigma_px * sigma_px * added.gradient;
 }
 
+/// What the inverse of the weighted information has to be multiplied by to be the covariance of the robust
+/// estimate: E[psi^2] / E[psi']^2, with the information counted per weight (Huber 1981, eq. 7.6.7).
+class RobustNoise {
+ public:
+  explicit RobustNoise(double loss_px) : loss_squared_(loss_px * loss_px) {}
+
+  void add(const Eigen::Vector4d& error_px, double coordinates) {
+    const double squares = error_px.squaredNorm();
+    const double weight = 1.0 / (1.0 + squares / loss_squared_);
+    influence_squares_ += weight * weight * squares;
+    slope_ += coordinates * weight - 2.0 * weight * weight * squares / loss_squared_;
+    weight_ += coordinates * weight;
+    coordinates_ += coordinates;
+  }
+
+  /// `unknowns` that were fitted to the observations, px^2.
+  double variance(int unknowns) const {
+    const double spare = std::max(1.0, coordinates_ - unknowns);
+    // No sum of slopes that a handful of outliers could bring to zero.
+    const double slope = std::max(slope_, 0.1 * weight_);
+    return influence_squares_ * weight_ * coordinates_ / (slope * slope * spare);
+  }
+
+ private:
+  double loss_squared_;
+  double influence_squares_ = 0.0;
+  double slope_ = 0.0;
+  double weight_ = 0.0;
+  double coordinates_ = 0.0;
+};
+
 }  // namespace
 
 void PoseEstimatorParams::describe(ParameterVisitor& visitor) {
@@ -79,6 +110,11 @@ Vector6d extrapolatedTwist(const Eigen::Isometry3d& T_camera_previous, double in
   const Vector6d mean = logMotion(T_camera_previous) / interval_s;
   if (!previous_twist) return mean;
   return 1.5 * mean - 0.5 * *previous_twist;
+}
+
+double robustWeight(const Eigen::Vector4d& error_px, double noise, double loss_px) {
+  const double scale_px = loss_px * noise;
+  return 1.0 / (noise * noise * (1.0 + error_px.squaredNorm() / (scale_px * scale_px)));
 }
 
 bool viewResidual(const StereoCalibration& calibration, const StereoView& view,
@@ -119,9 +155,10 @@ PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observat
     // Graduated: a wide loss first, so that a poor guess does not make outliers of good points.
     const double loss_px = params_.loss_px * std::max(1.0, 8.0 / (1 << iteration));
     for (const MapObservation& observation : observations) {
-      if (!viewResidual(calibration_, estimate.view, observation.p_world, observation.seen, residual))
+      if (!observation.votes ||
+          !viewResidual(calibration_, estimate.view, observation.p_world, observation.seen, residual))
         continue;
-      const double weight = 1.0 / (1.0 + residual.error_px.squaredNorm() / (loss_px * loss_px));
+      const double weight = robustWeight(residual.error_px, observation.seen.noise, loss_px);
       const Eigen::Matrix<double, 4, 6> weighted = weight * residual.by_pose;
       equations.information.topLeftCorner<6, 6>().noalias() += weighted.transpose() * residual.by_pose;
       equations.gradient.head<6>().noalias() += weighted.transpose() * residual.error_px;
@@ -147,7 +184,8 @@ PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observat
   }
 
   double squares = 0.0;
-  std::size_t coordinates = 0;
+  double coordinates = 0.0;
+  RobustNoise noise(params_.loss_px);
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const MapObservation& observation = observations[i];
     if (!viewResidual(calibration_, estimate.view, observation.p_world, observation.seen, residual)) continue;
@@ -155,14 +193,16 @@ PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observat
     if (estimate.error_px[i] > params_.max_error_px) continue;
     estimate.inlier[i] = true;
     ++estimate.inliers;
+    const double seen = observation.seen.has_right ? 4.0 : 2.0;
     squares += residual.error_px.squaredNorm();
-    coordinates += observation.seen.has_right ? 4 : 2;
+    coordinates += seen;
+    if (observation.votes) noise.add(residual.error_px / observation.seen.noise, seen);
   }
   if (estimate.inliers < kFewestPoints) return estimate;
-  estimate.rms_px = std::sqrt(squares / static_cast<double>(coordinates));
+  estimate.rms_px = std::sqrt(squares / coordinates);
   const Eigen::LDLT<Eigen::MatrixXd> solver(equations.information.topLeftCorner(size, size));
   const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(size, size));
-  estimate.covariance = estimate.rms_px * estimate.rms_px * inverse.topLeftCorner<6, 6>();
+  estimate.covariance = noise.variance(size) * inverse.topLeftCorner<6, 6>();
   estimate.view.T_camera_world = renormalised(estimate.view.T_camera_world);
   estimate.view.T_late_camera = renormalised(estimate.view.T_late_camera);
   estimate.converged = estimate.covariance.allFinite();

@@ -131,11 +131,10 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
     result.state = keyframe_id_ == 0 ? State::kInitialising : State::kLost;
     result.reason = "first frame: nothing to measure motion against yet";
     startAt(images, last_view_.T_camera_world, result);
-  } else if (!follow(images, result)) {
-    ++failures_;
+  } else if (!followOrSearch(images, result)) {
     result.state = State::kLost;
-    twist_.reset();
-    if (failures_ > params_.max_coasting_frames) startAt(images, last_view_.T_camera_world, result);
+    if (!isBlank(images, result)) ++failures_;
+    if (failures_ > params_.max_coasting_frames) startAt(images, turnedSinceLast(images), result);
   }
   result.T_start_camera = last_view_.T_camera_world.inverse();
   result.keyframe_id = keyframe_id_;
@@ -174,6 +173,32 @@ void StereoOdometry::startAt(const Images& images, const Eigen::Isometry3d& T_ca
     return;
   }
   clock.lap("start");
+}
+
+bool StereoOdometry::followOrSearch(const Images& images, FrameResult& result) {
+  if (follow(images, result)) return true;
+  if (!twist_) return false;
+  // A sudden stop, or a gap in the images: the velocity may have been what led astray.
+  twist_.reset();
+  return follow(images, result);
+}
+
+Eigen::Isometry3d StereoOdometry::turnedSinceLast(const Images& images) const {
+  Eigen::Isometry3d T_camera_last = Eigen::Isometry3d::Identity();
+  if (const auto turn = imu_.increment(last_left_time_s_, images.left_time_s)) {
+    T_camera_last.linear() = turn->R_to_from;
+  }
+  return T_camera_last * last_view_.T_camera_world;
+}
+
+bool StereoOdometry::isBlank(const Images& images, FrameResult& result) {
+  const std::size_t corners = detector_.detect(images.left.level(0), {}).size();
+  if (corners >= static_cast<std::size_t>(params_.min_inliers)) return false;
+  std::ostringstream message;
+  message << "the left image is blank, " << corners
+          << " corners: dark, covered, or overexposed; the features seen before are waited for";
+  result.reason = message.str();
+  return true;
 }
 
 bool StereoOdometry::follow(const Images& images, FrameResult& result) {
@@ -295,47 +320,66 @@ Eigen::Matrix2f StereoOdometry::patchStep(std::size_t i, const StereoView& view)
 }
 
 bool StereoOdometry::trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px,
-                              int top_level, const Eigen::Matrix2f& step) {
+                              int top_level, const Eigen::Matrix2f& step, int finest_level) {
   Track& track = tracks_[i];
-  const auto match =
-      tracker_.track(keyframe_image_, toCv(track.keyframe_px), images.left, toCv(guess_px), top_level, step);
+  const auto match = tracker_.track(keyframe_image_, toCv(track.keyframe_px), images.left, toCv(guess_px),
+                                    top_level, step, finest_level);
   track.found = match.has_value();
-  if (match) track.seen.left_px = toEigen(match->px);
-  return track.found;
+  if (!match) return false;
+  track.seen.left_px = toEigen(match->px);
+  track.seen.noise = 1 << finest_level;
+  return true;
 }
 
 void StereoOdometry::trackAll(const Images& images, const StereoView& predicted) {
   const int coarsest = params_.pyramid_levels - 1;
+  const bool expected = twist_ || imu_.increment(last_left_time_s_, images.left_time_s);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = tracks_[i];
-    if (track.inlier) track.last_px = track.seen.left_px;
+    if (track.inlier) {
+      track.last_px = track.seen.left_px;
+      ++track.confirmations;
+    }
     track.fresh = false;
     track.inlier = false;
     track.found = false;
     if (!track.alive) continue;
-    if (twist_ &&
-        trackOne(images, i, predictedPixel(i, predicted), std::min(2, coarsest), patchStep(i, predicted)))
+    if (expected &&
+        trackOne(images, i, predictedPixel(i, predicted), std::min(2, coarsest), patchStep(i, predicted), 0))
       continue;
-    trackOne(images, i, track.last_px, coarsest, Eigen::Matrix2f::Identity());
+    trackOne(images, i, track.last_px, coarsest, Eigen::Matrix2f::Identity(), 0);
   }
-  trackAfterTurn(images);
+  if (lostMany()) trackAfterTurn(images);
+  if (lostMany()) trackBlurred(images, predicted);
+  appointVoters();
 }
 
-void StereoOdometry::trackAfterTurn(const Images& images) {
-  constexpr double kFewShare = 0.5;
+bool StereoOdometry::lostMany() const {
+  constexpr double kShare = 0.5;
   std::size_t alive = 0;
   std::size_t found = 0;
   for (const Track& track : tracks_) {
     if (track.alive) ++alive;
     if (track.found) ++found;
   }
-  if (static_cast<double>(found) >= kFewShare * static_cast<double>(alive)) return;
+  return static_cast<double>(found) < kShare * static_cast<double>(alive);
+}
+
+void StereoOdometry::trackAfterTurn(const Images& images) {
   const auto shift = coarseShift(keyframe_image_, images.left);
   if (!shift) return;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!tracks_[i].alive || tracks_[i].found) continue;
     trackOne(images, i, tracks_[i].keyframe_px + toEigen(*shift), params_.pyramid_levels - 1,
-             Eigen::Matrix2f::Identity());
+             Eigen::Matrix2f::Identity(), 0);
+  }
+}
+
+void StereoOdometry::trackBlurred(const Images& images, const StereoView& predicted) {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!tracks_[i].alive || tracks_[i].found) continue;
+    trackOne(images, i, twist_ ? predictedPixel(i, predicted) : tracks_[i].last_px,
+             params_.pyramid_levels - 1, patchStep(i, predicted), 1);
   }
 }
 
@@ -361,10 +405,11 @@ std::size_t StereoOdometry::recover(const Images& images, const StereoView& view
   std::size_t recovered = 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!tracks_[i].alive || tracks_[i].inlier) continue;
-    if (!trackOne(images, i, predictedPixel(i, view), 1, patchStep(i, view))) continue;
+    if (!trackOne(images, i, predictedPixel(i, view), 1, patchStep(i, view), 0)) continue;
     matchStereoOne(images, i, view, 0.0);
     ++recovered;
   }
+  appointVoters();
   return recovered;
 }
 
@@ -398,13 +443,24 @@ std::vector<std::size_t> StereoOdometry::foundTracks() const {
   return found;
 }
 
+void StereoOdometry::appointVoters() {
+  constexpr int kConfirmations = 3;
+  const int enough = params_.min_inliers + params_.min_inliers / 2;
+  int required = kConfirmations;
+  const auto proven = [&required](const Track& track) {
+    return track.found && track.confirmations >= required;
+  };
+  while (required > 0 && std::count_if(tracks_.begin(), tracks_.end(), proven) < enough) --required;
+  for (Track& track : tracks_) track.votes = proven(track);
+}
+
 std::vector<std::size_t> StereoOdometry::selectRigid(const StereoView& view, FrameResult& result) const {
   const std::vector<std::size_t> found = foundTracks();
   std::vector<std::size_t> with_depth;
   std::vector<RigidPoint> points;
   for (const std::size_t i : found) {
     const StereoObservation& seen = tracks_[i].seen;
-    if (!seen.has_right) continue;
+    if (!seen.has_right || !tracks_[i].votes) continue;
     const Triangulation depth = triangulate(calibration_, view.T_late_camera, seen.left_px, seen.right_px);
     if (depth.inverse_depth <= 0.0) continue;
     with_depth.push_back(i);
@@ -425,7 +481,8 @@ std::vector<std::size_t> StereoOdometry::selectRigid(const StereoView& view, Fra
 PoseEstimate StereoOdometry::estimateFrom(const std::vector<std::size_t>& tracks, const MotionPrior& prior,
                                           const StereoView& guess) const {
   std::vector<MapObservation> observations;
-  for (const std::size_t i : tracks) observations.push_back({landmarks_[i].p_world(), tracks_[i].seen});
+  for (const std::size_t i : tracks)
+    observations.push_back({landmarks_[i].p_world(), tracks_[i].seen, tracks_[i].votes});
   return estimator_.estimate(observations, prior, guess);
 }
 

@@ -42,7 +42,7 @@ void WindowOptimizer::addLandmark(const std::vector<WindowFrame>& window, const 
     const WindowFrame& frame = window[static_cast<std::size_t>(view.frame)];
     if (!viewResidual(calibration_, frame.view, p_world, view.seen, residual)) continue;
     seen = true;
-    const double weight = 1.0 / (1.0 + residual.error_px.squaredNorm() / (params_.loss_px * params_.loss_px));
+    const double weight = robustWeight(residual.error_px, view.seen.noise, params_.loss_px);
     const Eigen::Matrix<double, 4, 3> by_landmark =
         residual.by_camera_point * (frame.view.T_camera_world.linear() * by_ray_depth);
     const Eigen::Matrix<double, 4, 3> weighted = weight * by_landmark;

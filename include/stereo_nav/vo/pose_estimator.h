@@ -10,8 +10,8 @@ namespace stereo_nav::vo {
 
 struct PoseEstimatorParams {
   int iterations = 15;
-  double loss_px = 0.5;
-  double max_error_px = 2.0;
+  double loss_px = 0.2;
+  double max_error_px = 3.0;
 
   void describe(ParameterVisitor& visitor);
 };
@@ -20,6 +20,7 @@ struct PoseEstimatorParams {
 struct MapObservation {
   Eigen::Vector3d p_world;
   StereoObservation seen;
+  bool votes = true;  ///< otherwise only judged by the motion that the others have
 };
 
 /// What is known of a frame's motion before its features are looked at.
@@ -68,6 +69,9 @@ class PoseEstimator {
 /// Tong and Sarkka 2014). Without a previous twist: the mean.
 Vector6d extrapolatedTwist(const Eigen::Isometry3d& T_camera_previous, double interval_s,
                            const std::optional<Vector6d>& previous_twist);
+
+/// Weight of an observation with the Cauchy loss of scale `loss_px`, both scaled to its own noise.
+double robustWeight(const Eigen::Vector4d& error_px, double noise, double loss_px);
 
 /// Residuals (observed - projected) of both images and their derivatives by left perturbations of
 /// T_camera_world and T_late_camera. Returns false for a point behind a camera. Public for its test.

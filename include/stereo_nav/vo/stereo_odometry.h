@@ -65,7 +65,9 @@ class StereoOdometry : public Odometry {
     bool alive = true;       ///< may still be found in the next frame
     bool found = false;      ///< in the current frame
     bool inlier = false;
-    bool fresh = true;  ///< detected in the current frame
+    bool fresh = true;      ///< detected in the current frame
+    bool votes = true;      ///< its observation moves the pose
+    int confirmations = 0;  ///< earlier frames in which it was an inlier, that of its detection included
   };
   /// The two images of a frame with their times.
   struct Images {
@@ -77,16 +79,28 @@ class StereoOdometry : public Odometry {
   };
 
   void startAt(const Images& images, const Eigen::Isometry3d& T_camera_world, FrameResult& result);
+  bool followOrSearch(const Images& images, FrameResult& result);
+  /// Where a new map begins: at the last position, turned as the IMU says, if it does.
+  Eigen::Isometry3d turnedSinceLast(const Images& images) const;
+  /// Nothing in the picture to measure motion by, nor to begin a new map from.
+  bool isBlank(const Images& images, FrameResult& result);
   bool follow(const Images& images, FrameResult& result);
   /// Pose, and the motion between skewed stamps, as far as the left image alone tells.
   StereoView leftOnlyView(const MotionPrior& prior, const StereoView& predicted);
   MotionPrior motionPrior(const Images& images) const;
   StereoView predict(const Images& images, const MotionPrior& prior) const;
   void trackAll(const Images& images, const StereoView& predicted);
-  /// Where most tracks were lost, a turn that nothing predicted is looked for in the picture as a whole.
+  /// More than half of the tracks that were alive.
+  bool lostMany() const;
+  /// A turn that nothing predicted is looked for in the picture as a whole.
   void trackAfterTurn(const Images& images);
+  /// What motion blur left of the features is seen at half the resolution.
+  void trackBlurred(const Images& images, const StereoView& predicted);
+  /// The motion is decided by tracks that have moved with the scene before, where they are enough: what comes
+  /// into view on its own way gets no vote for having been seen twice.
+  void appointVoters();
   bool trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level,
-                const Eigen::Matrix2f& step);
+                const Eigen::Matrix2f& step, int finest_level);
   Eigen::Matrix2f patchStep(std::size_t i, const StereoView& view) const;
   void matchStereo(const Images& images, const StereoView& view, double slack_px);
   void matchStereoOne(const Images& images, std::size_t i, const StereoView& view, double slack_px);

@@ -21,6 +21,7 @@ struct StereoObservation {
   Eigen::Vector2d right_px = Eigen::Vector2d::Zero();
   bool has_left = true;
   bool has_right = false;
+  double noise = 1.0;  ///< of the pixels, relative to what a sharp image gives
 };
 
 constexpr double kNearestDepth_m = 1e-2;  ///< points nearer to the image plane than this are not projected

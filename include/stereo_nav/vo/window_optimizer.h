@@ -10,7 +10,7 @@ namespace stereo_nav::vo {
 
 struct WindowOptimizerParams {
   int iterations = 2;
-  double loss_px = 0.5;
+  double loss_px = 0.2;
 
   void describe(ParameterVisitor& visitor);
 };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "support/textured_room.h"
@@ -114,6 +115,54 @@ TEST_F(StereoOdometryTest, ReportsDarknessAndRecovers) {
   vo.process(light);
   light.left_time_s = light.right_time_s = kPeriod_s * (kFrames + 8);
   EXPECT_EQ(vo.process(light).state, State::kTracking);
+}
+
+TEST_F(StereoOdometryTest, FindsItsWayAfterDarknessInWhichItMoved) {
+  auto frames = course();
+  for (const std::size_t i : {5u, 6u, 7u}) {
+    frames[i].left.setTo(3);
+    frames[i].right.setTo(3);
+  }
+  StereoOdometry vo = odometry();
+  const FrameResult result = drive(vo, frames);
+  ASSERT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_LT(endError(result), 0.015);
+}
+
+TEST_F(StereoOdometryTest, FollowsThroughImagesBlurredByMotion) {
+  auto frames = course();
+  for (const std::size_t i : {5u, 6u}) {
+    cv::blur(frames[i].left, frames[i].left, {11, 11});
+    cv::blur(frames[i].right, frames[i].right, {11, 11});
+  }
+  StereoOdometry vo = odometry();
+  for (const StereoFrame& frame : frames) {
+    const FrameResult result = vo.process(frame);
+    EXPECT_NE(result.state, State::kLost) << result.reason;
+    if (&frame == &frames.back()) {
+      EXPECT_LT(endError(result), 0.02);
+    }
+  }
+}
+
+TEST_F(StereoOdometryTest, IsNotCarriedAwayByWhatEntersTheView) {
+  // A block of strong texture, 1.9 m away, over two fifths of the view and sideways by 7 px per frame.
+  cv::RNG random(5);
+  cv::Mat block(calibration.height, calibration.width * 2 / 5, CV_8UC1);
+  random.fill(block, cv::RNG::UNIFORM, 0, 255);
+  cv::GaussianBlur(block, block, {0, 0}, 2.0);
+  cv::normalize(block, block, 0, 255, cv::NORM_MINMAX);
+  const int disparity_px = static_cast<int>(calibration.fx * calibration.baseline_m / 1.9);
+  auto frames = course();
+  for (std::size_t i = 5; i < frames.size(); ++i) {
+    const int x = calibration.width - block.cols - 7 * static_cast<int>(i - 5);
+    block.copyTo(frames[i].left(cv::Rect(x, 0, block.cols, block.rows)));
+    block.copyTo(frames[i].right(cv::Rect(x - disparity_px, 0, block.cols, block.rows)));
+  }
+  StereoOdometry vo = odometry();
+  const FrameResult result = drive(vo, frames);
+  ASSERT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_LT(endError(result), 0.02);
 }
 
 TEST_F(StereoOdometryTest, EqualInputGivesEqualOutput) {
