@@ -80,7 +80,7 @@ void CaptureDiagnostics::describePairs(Status& status) {
   status.add("Images out of order", stereo.pairing.out_of_order[0] + stereo.pairing.out_of_order[1]);
   status.add("Pairs overtaken by newer ones", stereo.delivered_late);
   status.addf("Skew, right - left (ms)", "%.3f", 1e3 * stereo.skew_s);
-  status.addf("Largest skew allowed (ms)", "%.3f", 1e3 * sources_.max_skew_s);
+  status.addf("Largest skew allowed (ms)", "%.3f", 1e3 * stereo.max_skew_s);
   if (std::isfinite(stereo.skew_rate)) {
     status.addf("Clock beat, change of skew (ms/s)", "%.4f", 1e3 * stereo.skew_rate);
   }
