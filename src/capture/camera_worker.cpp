@@ -1,8 +1,5 @@
 #include "stereo_nav/capture/camera_worker.h"
 
-#include <linux/videodev2.h>
-
-#include <algorithm>
 #include <utility>
 
 namespace stereo_nav::capture {
@@ -11,23 +8,6 @@ namespace {
 constexpr int kPoll_ms = 100;
 constexpr std::int64_t kExposureInterval_ns = 500'000'000;
 constexpr std::int64_t kLogInterval_ns = 10'000'000'000;
-constexpr double kExposureUnit_s = 100e-6;  // of V4L2_CID_EXPOSURE_ABSOLUTE
-
-std::optional<std::int32_t> readIfPresent(V4l2Device& device, const std::string& name) {
-  const Control* control = findControl(device.controls(), name);
-  if (control == nullptr) return std::nullopt;
-  return device.getControl(*control);
-}
-
-/// In automatic modes many cameras report the last manual exposure; only a control marked as changing by
-/// itself is believed then.
-bool exposureIsTold(V4l2Device& device) {
-  const Control* exposure = findControl(device.controls(), "exposure_time_absolute");
-  if (exposure == nullptr) return false;
-  const auto mode = readIfPresent(device, "auto_exposure");
-  const bool manual = !mode || *mode == V4L2_EXPOSURE_MANUAL || *mode == V4L2_EXPOSURE_SHUTTER_PRIORITY;
-  return manual || (exposure->flags & V4L2_CTRL_FLAG_VOLATILE) != 0;
-}
 
 }  // namespace
 
@@ -62,20 +42,6 @@ void CameraWorker::stop() {
 CameraStatus CameraWorker::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return status_;
-}
-
-void CameraWorker::setControl(const std::string& name, std::int32_t value) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  for (auto* list : {&wanted_controls_, &pending_controls_}) {
-    const auto found = std::find_if(list->begin(), list->end(), [&name](const ControlSetting& setting) {
-      return sameControl(setting.name, name);
-    });
-    if (found != list->end()) {
-      found->value = value;
-    } else {
-      list->push_back({name, value});
-    }
-  }
 }
 
 void CameraWorker::update(const std::function<void(CameraStatus&)>& change) {
@@ -199,54 +165,6 @@ void CameraWorker::noteUndecodable(const std::string& problem, std::int64_t now_
   next_undecodable_log_ns_ = now_ns + kLogInterval_ns;
   log_(Severity::Warning, config_.name + " camera: image dropped: " + problem +
                               "; now and then this is normal for USB, often it means a bad cable or hub");
-}
-
-void CameraWorker::applyControls(V4l2Device& device, const std::vector<ControlSetting>& settings) {
-  std::vector<std::string> warnings;
-  for (const auto& setting : inOrderOfSetting(settings)) {
-    const Control* control = findControl(device.controls(), setting.name);
-    if (control == nullptr) {
-      warnings.push_back(setting.name + ": the camera has no such control");
-      continue;
-    }
-    try {
-      const std::int32_t active = device.setControl(*control, setting.value);
-      if (active != setting.value) {
-        warnings.push_back(control->name + " = " + std::to_string(setting.value) + ": the camera set " +
-                           std::to_string(active) + " (allowed: " + std::to_string(control->minimum) +
-                           " to " + std::to_string(control->maximum) + ")");
-      }
-    } catch (const CaptureError& error) {
-      if (error.errorNumber() == ENODEV) throw;
-      warnings.push_back(error.what());
-    }
-  }
-  for (const auto& warning : warnings) log_(Severity::Warning, config_.name + " camera: " + warning);
-  update([&](CameraStatus& status) {
-    status.control_warnings.insert(status.control_warnings.end(), warnings.begin(), warnings.end());
-  });
-}
-
-void CameraWorker::applyPendingControls(V4l2Device& device) {
-  std::vector<ControlSetting> pending;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    pending.swap(pending_controls_);
-  }
-  if (pending.empty()) return;
-  applyControls(device, pending);
-  next_exposure_reading_ns_ = 0;
-}
-
-void CameraWorker::readExposure(V4l2Device& device) {
-  const auto exposure = readIfPresent(device, "exposure_time_absolute");
-  const auto gain = readIfPresent(device, "gain");
-  exposure_s_.reset();
-  if (exposure && exposureIsTold(device)) exposure_s_ = *exposure * kExposureUnit_s;
-  update([&](CameraStatus& status) {
-    status.exposure = exposure;
-    status.gain = gain;
-  });
 }
 
 void CameraWorker::noteFailure(const CaptureError& error) {

@@ -115,6 +115,7 @@ StereoStatus StereoCamera::status() const {
   status.pairing = pairer_.counts();
   status.delivered_late = delivered_late_;
   status.pair_rate_hz = pair_rate_.get_hz(kernel_.monotonicNow());
+  status.max_skew_s = 1e-9 * static_cast<double>(pairer_.maxSkew_ns());
   status.skew_s = skew_s_;
   status.skew_rate = beat_.skewRate();
   status.latency_s = latency_s_;

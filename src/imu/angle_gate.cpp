@@ -146,30 +146,31 @@ bool AngleGate::confirmOne(const Item& newest, const Sink& sink) {
   return false;
 }
 
-/// Looks for four waiting candidates on one line, the newest among them, and begins a new path with them.
-/// Three would not do: errors of opposite sign in the outer two leave the middle one on the line.
+/// Begins a new path when the newest waiting candidate ends one. Fewer candidates would not do: three damaged
+/// frames whose same byte was hit may lie on a line that a true one happens to cross.
 bool AngleGate::startTrack(const Sink& sink) {
-  for (std::size_t a = 0; a + 3 < waiting_count_; ++a) {
-    for (std::size_t b = a + 1; b + 2 < waiting_count_; ++b) {
-      for (std::size_t c = b + 1; c + 1 < waiting_count_; ++c) {
-        const std::array<Item, 4> path = {waiting_[a], waiting_[b], waiting_[c],
-                                          waiting_[waiting_count_ - 1]};
-        if (!isPath(path)) continue;
-        counters_.implausible += waiting_count_ - path.size();
-        waiting_count_ = 0;
-        last_.reset();
-        for (const Item& item : path) deliver(item, sink);
-        return true;
-      }
-    }
-  }
-  return false;
+  if (waiting_count_ < kPathFrames || !waiting_[waiting_count_ - 1].chained) return false;
+  Path path;
+  path.back() = waiting_[waiting_count_ - 1];
+  if (!completePath(path, path.size() - 1, waiting_count_ - 1)) return false;
+  counters_.implausible += waiting_count_ - path.size();
+  waiting_count_ = 0;
+  last_.reset();
+  for (const Item& item : path) deliver(item, sink);
+  return true;
 }
 
-bool AngleGate::isPath(const std::array<Item, 4>& items) const {
-  return std::all_of(items.begin(), items.end(), [](const Item& item) { return item.chained; }) &&
-         possibleRate(items[0], items[3]) && onLine(items[0], items[1], items[2]) &&
-         onLine(items[1], items[2], items[3]);
+/// Fills the first `missing` items of a path from the first `available` waiting candidates.
+bool AngleGate::completePath(Path& path, std::size_t missing, std::size_t available) const {
+  if (missing == 0) return possibleRate(path.front(), path.back());
+  for (std::size_t i = available; i-- > 0;) {
+    if (!waiting_[i].chained) continue;
+    path[missing - 1] = waiting_[i];
+    const bool straight =
+        missing + 1 >= path.size() || onLine(path[missing - 1], path[missing], path[missing + 1]);
+    if (straight && completePath(path, missing - 1, i)) return true;
+  }
+  return false;
 }
 
 void AngleGate::deliver(const Item& item, const Sink& sink) {

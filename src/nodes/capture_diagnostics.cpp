@@ -43,19 +43,20 @@ CaptureDiagnostics::CaptureDiagnostics(const ros::NodeHandle& handle, const ros:
 void CaptureDiagnostics::describeCamera(capture::Side side, Status& status) {
   const auto stereo = sources_.status();
   const capture::CameraStatus& camera = side == capture::Side::Left ? stereo.left : stereo.right;
-  status.summary(DiagnosticStatus::OK, "Images are coming");
-  if (camera.rate_hz < kSlow * sources_.wanted_rate_hz) {
-    status.mergeSummaryf(DiagnosticStatus::WARN,
-                         "%.1f of %.1f images a second: long exposure in poor light, or a busy USB bus",
-                         camera.rate_hz, sources_.wanted_rate_hz);
-  }
-  if (!camera.clock_warning.empty()) status.mergeSummary(DiagnosticStatus::WARN, camera.clock_warning);
-  for (const auto& warning : camera.control_warnings) status.mergeSummary(DiagnosticStatus::WARN, warning);
-  const std::string calibration_problem = sources_.calibration_problem(side);
-  if (!calibration_problem.empty()) status.mergeSummary(DiagnosticStatus::ERROR, calibration_problem);
   if (camera.state != capture::CameraState::Streaming) {
     status.summary(DiagnosticStatus::ERROR, camera.problem.empty() ? "No image yet" : camera.problem);
+  } else {
+    status.summary(DiagnosticStatus::OK, "Images are coming");
+    if (camera.rate_hz < kSlow * sources_.wanted_rate_hz) {
+      status.mergeSummaryf(DiagnosticStatus::WARN,
+                           "%.1f of %.1f images a second: long exposure in poor light, or a busy USB bus",
+                           camera.rate_hz, sources_.wanted_rate_hz);
+    }
+    if (!camera.clock_warning.empty()) status.mergeSummary(DiagnosticStatus::WARN, camera.clock_warning);
+    for (const auto& warning : camera.control_warnings) status.mergeSummary(DiagnosticStatus::WARN, warning);
   }
+  const std::string calibration_problem = sources_.calibration_problem(side);
+  if (!calibration_problem.empty()) status.mergeSummary(DiagnosticStatus::ERROR, calibration_problem);
   addCounts(camera, status);
 }
 
@@ -79,7 +80,7 @@ void CaptureDiagnostics::describePairs(Status& status) {
   status.add("Images out of order", stereo.pairing.out_of_order[0] + stereo.pairing.out_of_order[1]);
   status.add("Pairs overtaken by newer ones", stereo.delivered_late);
   status.addf("Skew, right - left (ms)", "%.3f", 1e3 * stereo.skew_s);
-  status.addf("Largest skew allowed (ms)", "%.3f", 1e3 * sources_.max_skew_s);
+  status.addf("Largest skew allowed (ms)", "%.3f", 1e3 * stereo.max_skew_s);
   if (std::isfinite(stereo.skew_rate)) {
     status.addf("Clock beat, change of skew (ms/s)", "%.4f", 1e3 * stereo.skew_rate);
   }

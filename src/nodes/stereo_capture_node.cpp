@@ -113,7 +113,6 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
     return publisherOf(side).calibrationProblem(params_.width, params_.height);
   };
   sources.wanted_rate_hz = params_.rate_hz;
-  sources.max_skew_s = params_.max_skew_s;
   diagnostics_ = std::make_unique<CaptureDiagnostics>(handle_, private_handle_, sources);
   if (private_handle_.param("load_image_proc", true)) {
     image_proc_ = std::make_unique<ImageProcLoader>(params_.stamps == capture::CaptureParams::Stamps::Common);

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "command_line.h"
 #include "imu_source.h"
 #include "program.h"
 #include "stereo_nav/imu/calibration.h"
@@ -39,12 +40,7 @@ bool parse(int argc, char** argv, Options& options) {
        "strength of the earth's magnetic field here, uT")  //
       ("output", po::value(&options.output)->default_value(options.output), "calibration file");
   po::variables_map values;
-  po::store(po::parse_command_line(argc, argv, visible), values);
-  po::notify(values);
-  if (values.count("help") != 0) {
-    std::cout << visible << "\n";
-    return false;
-  }
+  if (!parseCommandLine(argc, argv, visible, "", values)) return false;
   if (options.source.port.empty()) throw std::runtime_error("no --port given; see calibrate_imu --help");
   if (options.source.protocol != "raw") {
     throw std::runtime_error("only raw modules can be calibrated: the angle module does it itself");

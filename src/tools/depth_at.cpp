@@ -1,12 +1,11 @@
 // Distance at a pixel of the rectified left image, with statistics over the frames of a recording.
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 #include <optional>
 #include <vector>
 
+#include "command_line.h"
 #include "package_files.h"
 #include "program.h"
 #include "stereo_nav/params/parameters.h"
@@ -43,24 +42,16 @@ std::optional<Options> parse(int argc, char** argv) {
       ("start", po::value<double>(&options.part.start_s), "seconds of the recording to skip")       //
       ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")  //
       ("each", "also one line per frame: stamp and distance, 'nan' where there is no disparity");
-  po::options_description all;
-  all.add(visible).add_options()("bag", po::value<std::string>(&options.bag));
-  po::positional_options_description positional;
-  positional.add("bag", 1);
   po::variables_map values;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
-  po::notify(values);
-  if (values.count("help") != 0) {
-    std::cout << visible << "\n";
-    return std::nullopt;
-  }
-  if (options.bag.empty() || values.count("pixel") == 0 ||
+  if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;
+  if (values.count("bag") == 0 || values.count("pixel") == 0 ||
       values["pixel"].as<std::vector<int>>().size() != 2) {
     throw ros_io::InputError("BAG and --pixel X Y are needed; see depth_at --help");
   }
   if (size < 1 || options.disparity_range < 0 || options.disparity_range % 16 != 0) {
     throw ros_io::InputError("--window must be 1 or more, --disparity-range a multiple of 16");
   }
+  options.bag = values["bag"].as<std::string>();
   const auto pixel = values["pixel"].as<std::vector<int>>();
   options.window = cv::Rect(pixel[0] - size / 2, pixel[1] - size / 2, size, size);
   options.each = values.count("each") != 0;

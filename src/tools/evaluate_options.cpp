@@ -1,10 +1,9 @@
 #include "evaluate_options.h"
 
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 
+#include "command_line.h"
 #include "package_files.h"
 
 namespace stereo_nav::tools {
@@ -40,18 +39,8 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("start", po::value<double>(&options.part.start_s), "seconds of the recording to skip")           //
       ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")      //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
-  po::options_description all;
-  all.add(visible).add_options()("bag", po::value<std::string>());
-  po::positional_options_description positional;
-  positional.add("bag", 1);
-
   po::variables_map values;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
-  po::notify(values);
-  if (values.count("help") != 0) {
-    std::cout << visible << "\n";
-    return std::nullopt;
-  }
+  if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;
   if (values.count("bag") == 0) throw ros_io::InputError("no BAG given; see evaluate --help");
   options.bag = values["bag"].as<std::string>();
   options.config = configFile(values["config"].as<std::string>());

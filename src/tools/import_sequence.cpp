@@ -3,13 +3,12 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 
+#include "command_line.h"
 #include "import/derived_sequence.h"
 #include "import/sequence_bag.h"
 #include "program.h"
@@ -92,17 +91,9 @@ BaseFrame baseFrame(const std::string& name, const std::string& format) {
 bool parse(int argc, char** argv, Arguments& arguments) {
   double right_stamp_offset_ms = 0.0;
   const po::options_description visible = describeOptions(arguments, right_stamp_offset_ms);
-  po::options_description all;
-  all.add(visible).add_options()("dir", po::value(&arguments.folder));
-  po::positional_options_description positional;
-  positional.add("dir", 1);
   po::variables_map values;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
-  if (values.count("help") != 0) {
-    std::cout << visible << "\n";
-    return false;
-  }
-  po::notify(values);
+  if (!parseCommandLine(argc, argv, visible, "dir", values)) return false;
+  if (values.count("dir") != 0) arguments.folder = values["dir"].as<std::string>();
   arguments.bag.imu = values.count("no-imu") == 0;
   arguments.bag.right_stamp_offset_s = 1e-3 * right_stamp_offset_ms;
   checkArguments(arguments);

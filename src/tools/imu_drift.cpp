@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "../eval/gnuplot.h"
+#include "command_line.h"
 #include "imu_source.h"
 #include "program.h"
 #include "stereo_nav/eval/atomic_file.h"
@@ -69,6 +70,7 @@ RestRecording recordFromBag(const Options& options) {
       const auto& q = message->orientation;
       recording.angles.push_back({time_s, imu::moduleFromOrientation({q.w, q.x, q.y, q.z})});
     }
+    if (message->angular_velocity_covariance[0] == -1.0) continue;
     const auto& w = message->angular_velocity;
     recording.rate_times_s.push_back(time_s);
     recording.rates.emplace_back(w.x, w.y, w.z);
@@ -157,12 +159,7 @@ bool parse(int argc, char** argv, Options& options) {
       ("bag", po::value(&options.bag), "a recording instead of a port")                                //
       ("topic", po::value(&options.topic)->default_value(options.topic), "its sensor_msgs/Imu topic");
   po::variables_map values;
-  po::store(po::parse_command_line(argc, argv, visible), values);
-  po::notify(values);
-  if (values.count("help") != 0) {
-    std::cout << visible << "\n";
-    return false;
-  }
+  if (!parseCommandLine(argc, argv, visible, "", values)) return false;
   if (options.source.port.empty() == options.bag.empty()) {
     throw std::runtime_error("give either --port or --bag; see imu_drift --help");
   }

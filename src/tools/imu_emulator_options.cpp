@@ -40,7 +40,11 @@ imu::ModuleAngles anglesOf(const std::vector<double>& values, const std::string&
 
 imu::Motion motionOf(const po::variables_map& values) {
   if (values.count("trajectory") != 0) {
-    return imu::recordedMotion(eval::readTum(values["trajectory"].as<std::string>()));
+    const auto path = values["trajectory"].as<std::string>();
+    const eval::Trajectory trajectory = eval::readTum(path);
+    if (trajectory.size() < 2)
+      throw std::runtime_error(path + ": one pose is no motion; two or more are needed");
+    return imu::recordedMotion(trajectory);
   }
   if (values.count("bag") != 0) {
     return imu::recordedMotion(

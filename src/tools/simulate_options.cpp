@@ -1,10 +1,10 @@
 #include "simulate_options.h"
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <iostream>
 #include <thread>
 
+#include "command_line.h"
 #include "package_files.h"
 #include "stereo_nav/params/parameters.h"
 #include "stereo_nav/ros_io/conversions.h"
@@ -62,18 +62,8 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
       ("threads", po::value<int>(&options.threads), "for rendering; the result does not depend on it")     //
       ("no-images", "IMU and ground truth only")                                                           //
       ("compress", "a smaller bag (bz2), slower to write and read");
-  po::options_description all;
-  all.add(visible).add_options()("scenario", po::value<std::string>());
-  po::positional_options_description positional;
-  positional.add("scenario", 1);
-
   po::variables_map values;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
-  po::notify(values);
-  if (values.count("help") != 0) {
-    std::cout << visible << "\n";
-    return std::nullopt;
-  }
+  if (!parseCommandLine(argc, argv, visible, "scenario", values)) return std::nullopt;
   if (values.count("parameters") != 0) {
     printParameters();
     return std::nullopt;

@@ -14,6 +14,7 @@
 
 #include "stereo_nav/imu/calibration.h"
 #include "stereo_nav/imu/module_angles.h"
+#include "support/node_process.h"
 
 namespace stereo_nav::test {
 namespace {
@@ -158,11 +159,13 @@ TEST(ImuBridge, FindsAModuleAgainUnderAnotherIndex) {
 
 TEST(ImuBridge, SaysThatAModuleIsSilentAndGoesOnWithIt) {
   Bridge bridge("pausing");
-  // By the time this test runs the pause may be over; the log keeps what was said of it.
-  const auto resumed = [&] {
-    return bridge.data.size() > 100 && !bridge.diagnostics.empty() && bridge.lastValue("frames") > 700.0;
-  };
-  ASSERT_TRUE(waitUntil(resumed));
+  ASSERT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("pausing does not exist"); }));
+  const NodeProcess module({IMU_EMULATOR, "--wait-for-reader", "--pause-at", "2", "--pause-for", "4",
+                            "--link", ports_folder + "/pausing"});
+  EXPECT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("no bytes for "); }));
+  bridge.data.clear();
+  bridge.diagnostics.clear();
+  EXPECT_TRUE(waitUntil([&] { return bridge.data.size() > 100 && bridge.saidInDiagnostics("streaming"); }));
   EXPECT_EQ(bridge.lastValue("connections"), 1.0);
   EXPECT_EQ(bridge.diagnostics.back().level, diagnostic_msgs::DiagnosticStatus::OK);
 }

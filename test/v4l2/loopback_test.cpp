@@ -46,7 +46,7 @@ class Loopback : public testing::Test {
     config.left.device = kLeft;
     config.left.format = {format, kWidth, kHeight, 10.0};
     config.left.encoding = Encoding::Mono8;
-    config.left.stall_timeout_s = 3.0;
+    config.left.stall_timeout_s = 8.0;  // a busy host stops the machine for a while
     config.right = config.left;
     config.right.name = "right";
     config.right.device = kRight;

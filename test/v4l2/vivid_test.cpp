@@ -99,11 +99,14 @@ class Vivid : public testing::Test {
     }
   }
 
+  /// Numbers that the driver left out. A vivid that a busy host kept from running gives one number twice.
   std::uint64_t gapsIn(const std::string& path) {
     const auto buffers = kernel_.buffersOf(path);
     std::uint64_t gaps = 0;
-    for (std::size_t i = 1; i < buffers.size(); ++i)
-      gaps += buffers[i].sequence - buffers[i - 1].sequence - 1;
+    for (std::size_t i = 1; i < buffers.size(); ++i) {
+      const std::uint32_t step = buffers[i].sequence - buffers[i - 1].sequence;
+      if (step > 1 && step < 0x80000000u) gaps += step - 1;
+    }
     return gaps;
   }
 

@@ -52,6 +52,7 @@ class Pairer {
   void restart(Side side);
 
   void setMaxSkew(std::int64_t max_skew_ns) { max_skew_ns_ = max_skew_ns; }
+  std::int64_t maxSkew_ns() const { return max_skew_ns_; }
   const PairerCounts& counts() const { return counts_; }
   std::size_t waiting(Side side) const { return lane(side).frames.size(); }
 

@@ -33,9 +33,10 @@ struct StereoStatus {
   PairerCounts pairing;
   std::uint64_t delivered_late = 0;  ///< pairs overtaken by newer ones while the receiver was busy
   double pair_rate_hz = 0.0;
-  double skew_s = 0.0;     ///< of the latest pair
-  double skew_rate = 0.0;  ///< s/s; NaN until known
-  double latency_s = 0.0;  ///< of the latest pair, from dequeuing its later image to handing it on
+  double max_skew_s = 0.0;  ///< as it is set now
+  double skew_s = 0.0;      ///< of the latest pair
+  double skew_rate = 0.0;   ///< s/s; NaN until known
+  double latency_s = 0.0;   ///< of the latest pair, from dequeuing its later image to handing it on
 };
 
 /// Two cameras, three threads: each camera has one, which captures and decodes; the third hands pairs to the

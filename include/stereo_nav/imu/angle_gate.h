@@ -39,7 +39,7 @@ struct AngleGateCounters {
 /// 2. Any other one waits. It is delivered when the next one confirms it: it lies within
 ///    `noise + a n1 n2 T^2 / 2` of the line between its neighbours (n1, n2: periods to them) and not farther
 ///    than a few times the first bound from the expected path.
-/// 3. Four waiting candidates on one line, with a possible rate, start a new path: at the start, after a gap,
+/// 3. Five waiting candidates on one line, with a possible rate, start a new path: at the start, after a gap,
 ///    or after the module set its yaw to something else.
 ///
 /// Every delivered frame has a header at exactly 15 bytes before or after its own. Frames are delivered in
@@ -62,7 +62,9 @@ class AngleGate {
     AngleFrame frame;
     bool chained = false;  ///< a header stands 15 bytes before or after this one's
   };
-  static constexpr std::size_t kMaxWaiting = 6;
+  static constexpr std::size_t kMaxWaiting = 8;
+  static constexpr std::size_t kPathFrames = 5;  ///< that begin a path
+  using Path = std::array<Item, kPathFrames>;
 
   Item itemOf(const AngleCandidate& candidate, double arrival_s);
   void measurePeriod(const Item& item);
@@ -71,7 +73,7 @@ class AngleGate {
   bool possibleRate(const Item& first, const Item& last) const;
   bool confirmOne(const Item& newest, const Sink& sink);
   bool startTrack(const Sink& sink);
-  bool isPath(const std::array<Item, 4>& items) const;
+  bool completePath(Path& path, std::size_t missing, std::size_t available) const;
   void deliver(const Item& item, const Sink& sink);
   void forgetWaiting(std::size_t count);
   void removeFront(std::size_t count);

@@ -18,14 +18,16 @@ struct InertialSample {
 
 enum class AttitudeMethod { kMahony, kMadgwick };
 
+/// The gains are for a robot that drives: low, since every curve and every braking tilts what the
+/// accelerometer measures, while the gyroscope is calibrated.
 struct AttitudeParams {
   AttitudeMethod method = AttitudeMethod::kMahony;
   bool use_magnetometer = false;
   double acceleration_gate_m_s2 = 1.0;
-  double mahony_kp = 0.3;
-  double mahony_ki = 0.01;
-  double madgwick_beta = 0.02;
-  double madgwick_zeta = 0.0005;
+  double mahony_kp = 0.15;
+  double mahony_ki = 0.005;
+  double madgwick_beta = 0.005;
+  double madgwick_zeta = 0.0002;
 
   void describe(ParameterVisitor& visitor);
 };

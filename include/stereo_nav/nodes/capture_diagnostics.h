@@ -20,7 +20,6 @@ class CaptureDiagnostics {
     /// What is wrong with a camera's calibration; empty when nothing is.
     std::function<std::string(capture::Side)> calibration_problem;
     double wanted_rate_hz = 0.0;
-    double max_skew_s = 0.0;
   };
 
   CaptureDiagnostics(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, Sources sources);

@@ -89,6 +89,19 @@ TEST_F(StereoCameraTest, PairsCarryTheDriversStampsInOrder) {
   }
 }
 
+TEST_F(StereoCameraTest, TheLargestSkewCanBeChangedWhileItRuns) {
+  kernel_.change(1, [](FakeCamera& camera) { camera.offset_ns = 1'000'000; });
+  start(config());
+  ASSERT_TRUE(morePairsCome());
+  rig_->camera().setMaxSkew(0.0005);
+  EXPECT_DOUBLE_EQ(rig_->camera().status().max_skew_s, 0.0005);
+  const auto aloneSoFar = [this] { return rig_->camera().status().pairing.without_partner[0]; };
+  const auto alone = aloneSoFar();
+  EXPECT_TRUE(comesTrue([&] { return aloneSoFar() > alone + 10; }));
+  rig_->camera().setMaxSkew(0.0015);
+  EXPECT_TRUE(morePairsCome());
+}
+
 TEST_F(StereoCameraTest, CountsEveryFrameOfTheDriver) {
   kernel_.change(0, [](FakeCamera& camera) { camera.lose_every = 7; });
   kernel_.change(1, [](FakeCamera& camera) { camera.break_every = 5; });

@@ -7,7 +7,6 @@
 #include "stereo_nav/imu/angle_framer.h"
 #include "stereo_nav/imu/angle_gate.h"
 #include "stereo_nav/imu/emulation/emulated_module.h"
-#include "stereo_nav/imu/emulation/serial_line.h"
 #include "stereo_nav/imu/frame_decoder.h"
 #include "unit/imu/allocation_counter.h"
 
@@ -210,67 +209,6 @@ TEST(AngleProtocol, AllocatesNothingOnceRunning) {
   EXPECT_EQ(allocationCount(), before);
   EXPECT_GT(frames, 100U);
 }
-
-struct Fault {
-  double corrupt, lost;
-};
-
-class DamagedAngleStream : public testing::TestWithParam<Fault> {};
-
-/// A million frames of a robot that swings about, from a module with noise, one byte in a hundred damaged.
-TEST_P(DamagedAngleStream, DeliversIntactFramesAndNothingFarOff) {
-  constexpr int kFrames = 1000000;
-  ModuleErrors errors;
-  errors.angle_noise_deg = 0.02;
-  EmulatedModule module(Protocol::kAngles, AngleOrder::kYawPitchRoll, false, errors, 11);
-  LineFaults faults(GetParam().corrupt, GetParam().lost, 212);
-  const auto decoder = makeAngleDecoder(AngleOrder::kYawPitchRoll, AngleGateParams(), kBaud);
-
-  struct Sent {
-    ModuleAngles angles;
-    bool intact;
-    bool delivered;
-  };
-  std::vector<Sent> sent;
-  std::size_t published = 0, off = 0;
-  double worst_deg = 0.0;
-  Bytes line;
-  const auto check = [&](const DecodedFrame& frame) {
-    ++published;
-    // A frame arrives with the last byte of its own piece, which tells which frame it claims to be.
-    Sent& claimed = sent.at(static_cast<std::size_t>(std::lround(frame.arrival_s / kPeriod_s)));
-    const double error_deg =
-        (frame.angles->vector() - claimed.angles.vector()).unaryExpr(&wrapDegrees).lpNorm<Eigen::Infinity>();
-    claimed.delivered = true;
-    if (error_deg > 0.3) ++off;
-    worst_deg = std::max(worst_deg, error_deg);
-  };
-  for (int k = 0; k < kFrames; ++k) {
-    const double t = kPeriod_s * k;
-    const ModuleAngles truth{170.0 * std::sin(0.35 * t), 8.0 * std::sin(1.1 * t), 5.0 * std::sin(1.7 * t)};
-    const Bytes frame = module.frame({orientationFromModule(truth), {}, {}}, t);
-    line.clear();
-    const bool intact = faults.pass(frame.data(), frame.size(), line);
-    sent.push_back({module.lastAngles(), intact, false});
-    decoder->push(line.data(), line.size(), t, check);
-  }
-  std::size_t intact = 0, intact_delivered = 0;
-  for (const Sent& frame : sent) {
-    intact += frame.intact;
-    intact_delivered += frame.intact && frame.delivered;
-  }
-  const double delivered_share = static_cast<double>(intact_delivered) / static_cast<double>(intact);
-  const double off_share = static_cast<double>(off) / static_cast<double>(published);
-  std::printf(
-      "corrupt %.3f lost %.3f: intact frames delivered %.2f %%, off by > 0.3 deg %.4f %%, worst %.3f deg\n",
-      GetParam().corrupt, GetParam().lost, 100 * delivered_share, 100 * off_share, worst_deg);
-  EXPECT_GE(delivered_share, 0.90);
-  EXPECT_LE(off_share, 0.001);
-  EXPECT_LE(worst_deg, 3.0);
-}
-
-INSTANTIATE_TEST_SUITE_P(OnePercent, DamagedAngleStream,
-                         testing::Values(Fault{0.01, 0.0}, Fault{0.0, 0.01}, Fault{0.005, 0.005}));
 
 }  // namespace
 }  // namespace stereo_nav::imu

@@ -1,6 +1,8 @@
 #include "stereo_nav/imu/imu_device.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <functional>
@@ -122,6 +124,26 @@ TEST_F(ImuDeviceTest, ABusyPortIsNamedAndTakenWhenFree) {
   EXPECT_NE(device_->status().message.find("in use by another program"), std::string::npos);
   other.reset();
   EXPECT_TRUE(pollUntil([&] { return state() != LinkState::kDisconnected; }));
+}
+
+TEST_F(ImuDeviceTest, APortWithoutPermissionNamesTheGroupAndIsTakenOnceAllowed) {
+  // Root may open anything, so the test opens the port as another user then.
+  const bool is_root = geteuid() == 0;
+  constexpr uid_t kNobody = 65534;
+  ASSERT_EQ(chmod(terminal_->path().c_str(), is_root ? 0600 : 0), 0);
+  if (is_root) {
+    ASSERT_EQ(seteuid(kNobody), 0);
+  }
+  makeDevice(terminal_->path());
+  poll(0.0);
+  const std::string message = device_->status().message;
+  if (is_root) {
+    ASSERT_EQ(seteuid(0), 0);
+  }
+  ASSERT_EQ(chmod(terminal_->path().c_str(), 0600), 0);
+  EXPECT_NE(message.find("no permission to open " + terminal_->path()), std::string::npos) << message;
+  EXPECT_NE(message.find("sudo usermod -aG"), std::string::npos) << message;
+  EXPECT_TRUE(pollUntil([&] { return state() == LinkState::kStreaming; }, [&] { sendFrame(); }));
 }
 
 }  // namespace
