@@ -1,7 +1,6 @@
 #include "stereo_nav/vo/epipolar_error.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -47,8 +46,7 @@ Eigen::Vector2d EpipolarError::at(const Eigen::Vector2d& right_px) const {
 }
 
 double EpipolarError::slack_px() const {
-  const Eigen::Matrix3d covariance = (information_ + prior_).inverse();
-  return 3.0 * kMatchSigma_px * std::sqrt(covariance(0, 0));
+  return 3.0 * kMatchSigma_px / std::sqrt(information_(0, 0) + prior_(0, 0));
 }
 
 void EpipolarError::add(const Eigen::Vector2d& right_px, double error_px) {

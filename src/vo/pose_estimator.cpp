@@ -67,16 +67,16 @@ void addPriors(const MotionPrior& prior, const StereoView& view, double sigma_px
 }
 
 /// What the inverse of the weighted information has to be multiplied by to be the covariance of the robust
-/// estimate: E[psi^2] / E[psi']^2, with the information counted per weight (Huber 1981, eq. 7.6.7).
+/// estimate: E[psi^2] / E[psi']^2, with the information counted per weight (Huber 1981, chapter 7).
 class RobustNoise {
  public:
-  explicit RobustNoise(double loss_px) : loss_squared_(loss_px * loss_px) {}
+  explicit RobustNoise(double loss_px) : loss_px_(loss_px) {}
 
   void add(const Eigen::Vector4d& error_px, double coordinates) {
     const double squares = error_px.squaredNorm();
-    const double weight = 1.0 / (1.0 + squares / loss_squared_);
+    const double weight = robustWeight(error_px, 1.0, loss_px_);
     influence_squares_ += weight * weight * squares;
-    slope_ += coordinates * weight - 2.0 * weight * weight * squares / loss_squared_;
+    slope_ += coordinates * weight - 2.0 * weight * weight * squares / (loss_px_ * loss_px_);
     weight_ += coordinates * weight;
     coordinates_ += coordinates;
   }
@@ -90,7 +90,7 @@ class RobustNoise {
   }
 
  private:
-  double loss_squared_;
+  double loss_px_;
   double influence_squares_ = 0.0;
   double slope_ = 0.0;
   double weight_ = 0.0;

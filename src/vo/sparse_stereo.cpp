@@ -3,18 +3,12 @@
 #include <cmath>
 #include <vector>
 
+#include "pixel.h"
+
 namespace stereo_nav::vo {
 namespace {
 
 constexpr double kVague_px = 0.5;  ///< of the row: a search from one level further up
-
-cv::Point2f toCv(const Eigen::Vector2d& px) {
-  return {static_cast<float>(px.x()), static_cast<float>(px.y())};
-}
-
-Eigen::Vector2d toEigen(const cv::Point2f& px) {
-  return {static_cast<double>(px.x), static_cast<double>(px.y)};
-}
 
 }  // namespace
 

@@ -28,7 +28,7 @@ class EpipolarError {
   /// px, to be subtracted from a right pixel.
   Eigen::Vector2d at(const Eigen::Vector2d& right_px) const;
 
-  /// px, how far off at() may still be, 3 sigma of the row in the middle of the image.
+  /// px, how far off at() may still be, 3 sigma of the rows in the middle of the image.
   double slack_px() const;
 
   /// One match whose right row is `error_px` too low, what at() says included.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,13 @@ struct MotionPrior {
   std::optional<Vector6d> previous_twist;
   Vector6d twist_sigma = Vector6d::Ones();  ///< of the twist predicted from previous_twist and this motion
   std::optional<Eigen::Matrix3d> R_late_camera;  ///< rotation between the stamps from the IMU
+
+  /// How well the motion between the stamps is known before the right image is looked at: m, rad.
+  Vector6d lateSigma() const {
+    Vector6d sigma = twist_sigma * std::abs(skew_s);
+    if (R_late_camera) sigma.tail<3>().setConstant(rotation_sigma_rad);
+    return sigma;
+  }
 };
 
 struct PoseEstimate {

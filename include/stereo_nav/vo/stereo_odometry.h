@@ -90,13 +90,14 @@ class StereoOdometry : public Odometry {
   StereoView leftOnlyView(const MotionPrior& prior, const StereoView& predicted);
   MotionPrior motionPrior(const Images& images) const;
   StereoView predict(const Images& images, const MotionPrior& prior) const;
-  void trackAll(const Images& images, const StereoView& predicted);
+  /// Unless `moved_as_predicted`, by the velocity or the IMU, features are looked for where they were.
+  void trackAll(const Images& images, const StereoView& predicted, bool moved_as_predicted);
   /// More than half of the tracks that were alive.
   bool lostMany() const;
   /// A turn that nothing predicted is looked for in the picture as a whole.
   void trackAfterTurn(const Images& images);
   /// What motion blur left of the features is seen at half the resolution.
-  void trackBlurred(const Images& images, const StereoView& predicted);
+  void trackBlurred(const Images& images, const StereoView& predicted, bool moved_as_predicted);
   /// The motion is decided by tracks that have moved with the scene before, where they are enough: what comes
   /// into view on its own way gets no vote for having been seen twice.
   void appointVoters();

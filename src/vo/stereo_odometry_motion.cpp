@@ -1,0 +1,134 @@
+// StereoOdometry: what is expected of the motion, and what the features make of it.
+#include <algorithm>
+#include <cmath>
+
+#include "stereo_nav/vo/stereo_odometry.h"
+
+namespace stereo_nav::vo {
+namespace {
+
+/// The motion over `time_s` of a camera that moves by `after` in `after_s` and moved by the inverse of
+/// `before` in the `before_s` up to now: the parabola of twists through the three poses.
+Eigen::Isometry3d interpolatedMotion(const Eigen::Isometry3d& T_next_now, double after_s,
+                                     const Eigen::Isometry3d& T_now_before, double before_s, double time_s) {
+  const Vector6d rate_after = logMotion(T_next_now) / after_s;
+  const Vector6d rate_before = logMotion(T_now_before) / before_s;
+  const Vector6d curvature = (rate_after - rate_before) / (after_s + before_s);
+  const Vector6d rate = rate_after - curvature * after_s;
+  return expMotion(rate * time_s + curvature * time_s * time_s);
+}
+
+}  // namespace
+
+MotionPrior StereoOdometry::motionPrior(const Images& images) const {
+  MotionPrior prior;
+  prior.T_previous_world = last_view_.T_camera_world;
+  prior.interval_s = images.left_time_s - last_left_time_s_;
+  prior.skew_s = images.skew_s();
+  prior.previous_twist = twist_;
+  const double spread = twist_ ? 0.5 * std::sqrt(prior.interval_s) : std::sqrt(prior.interval_s);
+  prior.twist_sigma.head<3>().setConstant(std::sqrt(params_.acceleration_density) * spread);
+  prior.twist_sigma.tail<3>().setConstant(std::sqrt(params_.angular_acceleration_density) * spread);
+  if (const auto turn = imu_.increment(last_left_time_s_, images.left_time_s)) {
+    prior.R_camera_previous = turn->R_to_from;
+    prior.rotation_sigma_rad = turn->sigma_rad;
+  }
+  if (const auto late = imu_.increment(images.left_time_s, images.right_time_s)) {
+    prior.R_late_camera = late->R_to_from;
+  }
+  return prior;
+}
+
+StereoView StereoOdometry::predict(const Images& images, const MotionPrior& prior) const {
+  const Vector6d twist = twist_.value_or(Vector6d::Zero());
+  Eigen::Isometry3d T_camera_previous = expMotion(twist * prior.interval_s);
+  StereoView view;
+  view.T_late_camera = expMotion(twist * images.skew_s());
+  if (prior.R_camera_previous) T_camera_previous.linear() = *prior.R_camera_previous;
+  if (prior.R_late_camera) view.T_late_camera.linear() = *prior.R_late_camera;
+  view.T_camera_world = T_camera_previous * prior.T_previous_world;
+  return view;
+}
+
+StereoView StereoOdometry::leftOnlyView(const MotionPrior& prior, const StereoView& predicted) {
+  for (Track& track : tracks_) track.seen.has_right = false;
+  const PoseEstimate estimate = estimateFrom(foundTracks(), prior, predicted);
+  return estimate.converged ? estimate.view : predicted;
+}
+
+double StereoOdometry::epipolarSlack(const Vector6d& late_sigma) const {
+  constexpr double kNearDepth_m = 3.0;
+  return calibration_.fx * (late_sigma.tail<3>().maxCoeff() + late_sigma.head<3>().maxCoeff() / kNearDepth_m);
+}
+
+bool StereoOdometry::isThin(const PoseEstimate& estimate) const {
+  constexpr double kThinShare = 0.6;
+  const auto alive =
+      std::count_if(tracks_.begin(), tracks_.end(), [](const Track& track) { return track.alive; });
+  return static_cast<double>(estimate.inliers) < kThinShare * static_cast<double>(alive);
+}
+
+PoseEstimate StereoOdometry::estimateFrom(const std::vector<std::size_t>& tracks, const MotionPrior& prior,
+                                          const StereoView& guess) const {
+  std::vector<MapObservation> observations;
+  for (const std::size_t i : tracks)
+    observations.push_back({landmarks_[i].p_world(), tracks_[i].seen, tracks_[i].votes});
+  return estimator_.estimate(observations, prior, guess);
+}
+
+PoseEstimate StereoOdometry::estimatePose(const std::vector<std::size_t>& selected, const MotionPrior& prior,
+                                          const StereoView& guess) {
+  const PoseEstimate rigid = estimateFrom(selected, prior, guess);
+  if (!rigid.converged) return rigid;
+  // Once more with all that agree with that motion, also those without a depth of their own in this frame.
+  const std::vector<std::size_t> found = foundTracks();
+  const PoseEstimate estimate = estimateFrom(found, prior, rigid.view);
+  for (std::size_t k = 0; k < found.size(); ++k) tracks_[found[k]].inlier = estimate.inlier[k];
+  return estimate;
+}
+
+void StereoOdometry::updateTwist(const Images& images, const MotionPrior& prior) {
+  const Eigen::Isometry3d T_camera_last =
+      window_.back().view.T_camera_world * last_view_.T_camera_world.inverse();
+  if (images.skew_s() != 0.0) {
+    twist_ = Vector6d(logMotion(window_.back().view.T_late_camera) / images.skew_s());
+  } else {
+    twist_ = extrapolatedTwist(T_camera_last, prior.interval_s, std::nullopt);
+  }
+  T_last_before_ = T_camera_last;
+  last_interval_s_ = prior.interval_s;
+}
+
+void StereoOdometry::expectSkew(const Images& images, const MotionPrior& prior) {
+  WindowFrame& frame = window_.back();
+  frame.skewed = images.skew_s() != 0.0;
+  if (!frame.skewed) return;
+  const Vector6d twist = extrapolatedTwist(frame.view.T_camera_world * prior.T_previous_world.inverse(),
+                                           prior.interval_s, prior.previous_twist);
+  frame.T_late_expected = expMotion(twist * images.skew_s());
+  frame.late_sigma = prior.lateSigma();
+  if (prior.R_late_camera) frame.T_late_expected.linear() = *prior.R_late_camera;
+}
+
+void StereoOdometry::smoothPreviousSkew(const Images& images) {
+  if (last_skew_s_ == 0.0 || !last_is_keyframe_ || window_.size() < 2) return;
+  WindowFrame& previous = window_[window_.size() - 2];
+  const double after_s = images.left_time_s - last_left_time_s_;
+  const Eigen::Isometry3d T_next =
+      window_.back().view.T_camera_world * previous.view.T_camera_world.inverse();
+  const Eigen::Matrix3d R_expected = previous.T_late_expected.linear();
+  const Eigen::Vector3d rotation_sigma = previous.late_sigma.tail<3>();
+  previous.T_late_expected = last_interval_s_ > 0.0 ? interpolatedMotion(T_next, after_s, T_last_before_,
+                                                                         last_interval_s_, last_skew_s_)
+                                                    : expMotion(logMotion(T_next) * last_skew_s_ / after_s);
+  // Midway between two known poses, under white acceleration.
+  const double spread = std::sqrt(after_s * after_s * after_s / 48.0);
+  previous.late_sigma.head<3>().setConstant(std::sqrt(params_.acceleration_density) * spread);
+  previous.late_sigma.tail<3>().setConstant(std::sqrt(params_.angular_acceleration_density) * spread);
+  if (imu_.increment(last_left_time_s_, last_left_time_s_ + last_skew_s_)) {
+    previous.T_late_expected.linear() = R_expected;
+    previous.late_sigma.tail<3>() = rotation_sigma;
+  }
+}
+
+}  // namespace stereo_nav::vo
