@@ -37,7 +37,7 @@ def draw(picture, estimate, truth):
         return "".join("%.4f %.4f\n" % (x, y) for _, x, y in rows) + "e\n"
 
     script = ("set terminal svg size 800,520 background 'white'\nset output '%s'\nset size ratio -1\nset grid\n"
-              "set xlabel 'x (m)'\nset ylabel 'y (m)'\n"
+              "set xlabel 'x (m)'\nset ylabel 'y (m)'\nset key outside below samplen 2\n"
               "plot '-' with lines lw 2 title 'truth', '-' with lines lw 2 title 'odometry', "
               "'-' with points pt 6 title 'way-points'\n" % picture)
     script += block(truth) + block(estimate) + "".join("%g %g\n" % w for w in thesis_drives.WAYPOINTS) + "e\n"
