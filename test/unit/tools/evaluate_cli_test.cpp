@@ -91,7 +91,7 @@ TEST_F(EvaluateTest, MeasuresAKnownDriveAndRepeatsItselfToTheByte) {
   EXPECT_EQ(summary["frames_lost"], 0);
   EXPECT_NEAR(summary["path_length_m"].get<double>(), 0.44, 0.001);  // 11 periods at 0.4 m/s
   EXPECT_LT(summary["ate_rmse_m"].get<double>(), 0.03);
-  for (const char* name : {"trajectory.tum", "trajectory.kitti", "summary.json"}) {
+  for (const char* name : {"trajectory.tum", "trajectory.kitti", "summary.json", "frames.csv"}) {
     const std::string first = contentOf(folder / "first" / name);
     EXPECT_FALSE(first.empty());
     EXPECT_EQ(first, contentOf(folder / "second" / name)) << name;
