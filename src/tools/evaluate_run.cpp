@@ -139,8 +139,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
                             const std::function<void(std::size_t, std::size_t)>& progress) {
   const vo::OdometryConfig config = vo::loadOdometryConfig(options.config);
   ros_io::DisparityParams disparity;
-  const std::string disparity_file = configFile("disparity.yaml");
-  readParameters(loadYamlFile(disparity_file), disparity_file, disparity);
+  readParameters(loadYamlFile(options.disparity_config), options.disparity_config, disparity);
 
   const ros_io::Recording recording(options.bag, options.part);
   const ros_io::StereoProcessing processing(recording.leftInfo(), recording.rightInfo(), disparity);

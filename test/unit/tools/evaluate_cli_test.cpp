@@ -102,6 +102,19 @@ TEST_F(EvaluateTest, MeasuresAKnownDriveAndRepeatsItselfToTheByte) {
   EXPECT_NE(contentOf(folder / "first/report.html").find("</html>"), std::string::npos);
 }
 
+TEST_F(EvaluateTest, TheDisparityMapHasItsOwnParameters) {
+  // The wall is at more pixels than 16 disparities reach: nothing has a depth, nothing can be followed.
+  std::ofstream(file("short.yaml")) << "disparity_range: 16\n";
+  const auto as_configured = evaluate(file("room.bag") + " --output " + file("wide"));
+  ASSERT_EQ(as_configured.status, 0) << as_configured.output;
+  const auto result = evaluate(file("room.bag") + " --disparity-config " + file("short.yaml") + " --output " +
+                               file("narrow"));
+  ASSERT_EQ(result.status, 0) << result.output;
+  const auto wide = nlohmann::json::parse(contentOf(folder / "wide/summary.json"));
+  const auto narrow = nlohmann::json::parse(contentOf(folder / "narrow/summary.json"));
+  EXPECT_LT(narrow["inliers_mean"].get<double>(), 0.5 * wide["inliers_mean"].get<double>());
+}
+
 TEST_F(EvaluateTest, RefusesBadArguments) {
   expectRefusal("", "no BAG given");
   expectRefusal(file("room.bag") + " --start -1", "--start");
