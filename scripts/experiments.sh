@@ -26,7 +26,7 @@ absolute_list() {
   (IFS=, && echo "${1%%=*}=${result[*]}")
 }
 
-seeds=5 build_dir=$STEREO_NAV_ROOT/build out="" cores=all arguments=() recordings=false settings=()
+seeds=5 build_dir=$STEREO_NAV_ROOT/build out="" cores=all arguments=() settings=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --seeds) shift; seeds=${1:?--seeds needs a number} ;;
@@ -34,7 +34,6 @@ while [[ $# -gt 0 ]]; do
     --output) shift; out=$(absolute_path "${1:?--output needs a folder}") ;;
     --cores) shift; cores=${1:?--cores needs a number} ;;
     -h | --help) usage; exit 0 ;;
-    recordings) recordings=true; arguments+=(recordings) ;;
     --config) while [[ $# -gt 1 && $2 == *=* ]]; do
         shift
         case $1 in bags=* | configs=*) settings+=("$(absolute_list "$1")") ;; *) settings+=("$1") ;; esac
@@ -52,6 +51,4 @@ set +u && source "$build_dir/devel/setup.bash" && set -u
 out=${out:-$build_dir/experiments}
 mkdir -p "$out"
 snakemake --snakefile "$STEREO_NAV_ROOT/workflow/Snakefile" --directory "$out" --cores "$cores" --keep-going --show-failed-logs \
-  "${arguments[@]}" --config "output=$out" "seeds=$seeds" "${settings[@]}"
-$recordings && exit 0
-/usr/bin/python3 "$STEREO_NAV_ROOT/workflow/report.py" "$out" "$STEREO_NAV_ROOT/docs"
+  "${arguments[@]}" --config "output=$out" "docs=$STEREO_NAV_ROOT/docs" "seeds=$seeds" "${settings[@]}"
