@@ -71,6 +71,14 @@ def bag_name(scenario, settings, seed):
     return "__".join(part.replace("/", "_") for part in parts)
 
 
+def settings_with_same_images(scenario, settings):
+    """Those of a case that sees the same and differs in its IMU alone: images cost much more than the rest. None where
+    no case is like that."""
+    others = [setting for setting in settings if not setting.startswith("imu.")]
+    cases_of_all = [(case[0], sorted(case[1])) for points in GROUPS.values() for case in points.values()]
+    return others if others != settings and (scenario, sorted(others)) in cases_of_all else None
+
+
 def all_runs(groups, seeds_of, leave_out=()):
     """One (group, point, config, seed, bag name, scenario, settings) for everything that is evaluated."""
     runs = []

@@ -65,14 +65,16 @@ TEST(DepthAt, GivenPixel) {
 TEST(DepthAt, PixelWithoutDisparityOrOutside) {
   Walls walls;
   const CommandResult none = walls.show(kDepthAt + "--pixel 40 200 --frames 3");
-  EXPECT_NE(none.output.find("no disparity at the pixel in any of 3 frames"), std::string::npos) << none.output;
+  EXPECT_NE(none.output.find("no disparity at the pixel in any of 3 frames"), std::string::npos)
+      << none.output;
   const CommandResult outside = walls.show(kDepthAt + "--pixel 319 100");
   EXPECT_EQ(outside.status, 2);
   EXPECT_NE(outside.output.find("leaves the image of 320 x 240"), std::string::npos) << outside.output;
 }
 
 TEST(DepthAt, BadArguments) {
-  for (const char* arguments : {"", "--live x.bag --pixel 1 1", "x.bag", "--live --pixel 1", "--live --frames 0"}) {
+  for (const char* arguments :
+       {"", "--live x.bag --pixel 1 1", "x.bag", "--live --pixel 1", "--live --frames 0"}) {
     const CommandResult result = runCommand(std::string(DEPTH_AT) + " " + arguments);
     EXPECT_EQ(result.status, 2) << arguments;
     EXPECT_EQ(result.output.rfind("depth_at: ", 0), 0u) << result.output;

@@ -19,8 +19,8 @@
 namespace stereo_nav::test {
 namespace {
 
-constexpr double kLongWait_s = 150.0;   // the drive takes 30 s; the rest is for a loaded machine
-constexpr double kTolerance_m = 0.35;   // 3 % of the course
+constexpr double kLongWait_s = 150.0;    // the drive takes 30 s; the rest is for a loaded machine
+constexpr double kTolerance_m = 0.35;    // 3 % of the course
 constexpr double kFloorDepth_m = 1.583;  // at row 200: camera height 0.283 m, f 463.8, cy 117.1
 
 struct Mark {
@@ -56,8 +56,8 @@ class KeyMarker {
  public:
   KeyMarker(const std::string& output, const std::string& truth)
       : log_(output + ".log"),
-        keys_(popen(("exec rosrun stereo_nav mark_waypoint.py __name:=mark_by_key _output:=" + output +
-                     " _truth:=" + truth + " > " + log_ + " 2>&1")
+        keys_(popen(("exec " MARK_WAYPOINT " __name:=mark_by_key _output:=" + output + " _truth:=" + truth +
+                     " > " + log_ + " 2>&1")
                         .c_str(),
                     "w")) {}
   void press() {
@@ -77,9 +77,7 @@ class KeyMarker {
 
 class Simulator : public testing::Test {
  protected:
-  std::string parameter(const char* name) const {
-    return ros::NodeHandle("~").param<std::string>(name, "");
-  }
+  std::string parameter(const char* name) const { return ros::NodeHandle("~").param<std::string>(name, ""); }
 
   /// Every mark has the way-point's true position, in order, and is where the robot was at its time.
   void expectGoodMarks(const std::vector<Mark>& marks) {
@@ -87,13 +85,14 @@ class Simulator : public testing::Test {
     for (std::size_t i = 0; i < marks.size(); ++i) {
       EXPECT_EQ(marks[i].true_x_m, waypoints_[i].point.x) << i;
       EXPECT_EQ(marks[i].true_y_m, waypoints_[i].point.y) << i;
-      const auto truth = std::find_if(
-          probe_.ground_truth.begin(), probe_.ground_truth.end(),
-          [&](const auto& message) { return std::abs(message.header.stamp.toSec() - marks[i].time_s) < 1e-3; });
+      const auto truth =
+          std::find_if(probe_.ground_truth.begin(), probe_.ground_truth.end(), [&](const auto& message) {
+            return std::abs(message.header.stamp.toSec() - marks[i].time_s) < 1e-3;
+          });
       ASSERT_NE(truth, probe_.ground_truth.end()) << i;
-      EXPECT_LT(std::hypot(truth->pose.pose.position.x - marks[i].x_m,
-                           truth->pose.pose.position.y - marks[i].y_m),
-                kTolerance_m)
+      EXPECT_LT(
+          std::hypot(truth->pose.pose.position.x - marks[i].x_m, truth->pose.pose.position.y - marks[i].y_m),
+          kTolerance_m)
           << i;
     }
   }
@@ -117,11 +116,12 @@ TEST_F(Simulator, DrivesTheGraphWhileWaypointsAreMarkedAndADistanceIsMeasured) {
   std_srvs::Trigger early;
   ASSERT_TRUE(service.call(early));
   EXPECT_FALSE(early.response.success) << "nothing to mark yet";
-  EXPECT_NE(early.response.message.find("nothing came on /odom"), std::string::npos) << early.response.message;
+  EXPECT_NE(early.response.message.find("nothing came on /odom"), std::string::npos)
+      << early.response.message;
 
   KeyMarker keys(parameter("by_key"), parameter("truth"));
   auto depth = std::async(std::launch::async, [] {
-    return runCommand("rosrun stereo_nav depth_at --live --pixel 142 200 --window 9 --frames 20");
+    return runCommand(DEPTH_AT " --live --pixel 142 200 --window 9 --frames 20");
   });
   for (std::size_t marked = 0; marked < 12; ++marked) {
     ASSERT_TRUE(probe_.waitUntil([&] { return waypoints_.size() > marked; }, kLongWait_s)) << marked;
