@@ -103,12 +103,12 @@ TEST_F(EvaluateTest, MeasuresAKnownDriveAndRepeatsItselfToTheByte) {
 }
 
 TEST_F(EvaluateTest, TheDisparityMapHasItsOwnParameters) {
-  // The wall is at more pixels than 16 disparities reach: nothing has a depth, nothing can be followed.
-  std::ofstream(file("short.yaml")) << "disparity_range: 16\n";
+  // Searched beyond the disparities of the room, nothing has a depth and nothing can be followed.
+  std::ofstream(file("near.yaml")) << "min_disparity: 128\n";
   const auto as_configured = evaluate(file("room.bag") + " --output " + file("wide"));
   ASSERT_EQ(as_configured.status, 0) << as_configured.output;
-  const auto result = evaluate(file("room.bag") + " --disparity-config " + file("short.yaml") + " --output " +
-                               file("narrow"));
+  const auto result =
+      evaluate(file("room.bag") + " --disparity-config " + file("near.yaml") + " --output " + file("narrow"));
   ASSERT_EQ(result.status, 0) << result.output;
   const auto wide = nlohmann::json::parse(contentOf(folder / "wide/summary.json"));
   const auto narrow = nlohmann::json::parse(contentOf(folder / "narrow/summary.json"));
