@@ -1,6 +1,5 @@
 """Sections of the report that go beyond the thesis: what its author could only suspect, as curves."""
 import plots
-import thesis_drives
 from results import NAMES, drives_table, end_percent, spread, table
 
 FREE_X = 21.0  # where the free-running cameras stand on the axis of skews
@@ -75,7 +74,7 @@ def rotation(results, pictures):
               for config in ("thesis", "stereo")}
     vision = results.values("drift", "0", "thesis_vision")
     series[NAMES["thesis_vision"]] = [(float(point), vision) for point in (drifts[0], drifts[-1])]
-    plots.curves(pictures + "/rotation_drift.svg", "drift of the IMU''s yaw (deg/s)", "RMSE over the way-points (m)", series,
+    plots.curves(pictures + "/rotation_drift.svg", "drift of the IMU's yaw (deg/s)", "RMSE over the way-points (m)", series,
                  "set logscale x\nset xrange [0.004:1.3]\n" + plots.tics([(float(point), point) for point in drifts]))
     imu = {point: results.mean("drift", point, "thesis") for point in drifts}
     vision_m = sum(vision) / len(vision)

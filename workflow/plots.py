@@ -15,21 +15,26 @@ def draw(path, commands, height_px=400):
     subprocess.run(["gnuplot"], input=header + styles + commands + "\n", text=True, check=True)
 
 
+def quoted(text):
+    """A string of gnuplot; two of its quotes stand for one."""
+    return "'%s'" % text.replace("'", "''")
+
+
 def block(rows):
     """Inline data of gnuplot."""
     return "".join(" ".join("%g" % value for value in row) + "\n" for row in rows) + "e\n"
 
 
 def tics(labels, rotate=False):
-    return "set xtics (%s)%s\n" % (", ".join("'%s' %g" % (label, x) for x, label in labels),
+    return "set xtics (%s)%s\n" % (", ".join("%s %g" % (quoted(label), x) for x, label in labels),
                                    " rotate by -12" if rotate else "")
 
 
 def curves(path, xlabel, ylabel, series, commands=""):
     """Mean (line) and range (bars) over the seeds; series: title -> [(x, values of the seeds)]."""
-    text = "set xlabel '%s'\nset ylabel '%s'\nset yrange [0:*]\nset offsets graph 0.03, graph 0.03, graph 0.05, 0\n%s" % (
-        xlabel, ylabel, commands)
-    text += "plot " + ", ".join("'-' with yerrorlines ls %d title '%s'" % (i, title)
+    text = "set xlabel %s\nset ylabel %s\nset yrange [0:*]\nset offsets graph 0.03, graph 0.03, graph 0.05, 0\n%s" % (
+        quoted(xlabel), quoted(ylabel), commands)
+    text += "plot " + ", ".join("'-' with yerrorlines ls %d title %s" % (i, quoted(title))
                                 for i, title in enumerate(series, 1)) + "\n"
     draw(path, text + "".join(block((x, statistics.mean(values), min(values), max(values)) for x, values in points)
                               for points in series.values()))
@@ -37,7 +42,7 @@ def curves(path, xlabel, ylabel, series, commands=""):
 
 def seeds(path, ylabel, cases, commands=""):
     """One point for each seed, one column for each case; cases: [(label, values)]."""
-    text = "set ylabel '%s'\nset xrange [-0.5:%g]\nset yrange [0:*]\nunset key\n" % (ylabel, len(cases) - 0.5)
+    text = "set ylabel %s\nset xrange [-0.5:%g]\nset yrange [0:*]\nunset key\n" % (quoted(ylabel), len(cases) - 0.5)
     text += tics([(i, label) for i, (label, _) in enumerate(cases)], rotate=len(cases) > 4) + commands
     rows = [(i + 0.03 * (n - 0.5 * (len(values) - 1)), value) for i, (_, values) in enumerate(cases)
             for n, value in enumerate(values)]
@@ -47,8 +52,8 @@ def seeds(path, ylabel, cases, commands=""):
 
 
 def lines(path, xlabel, ylabel, series, commands="", height_px=400):
-    """series: title -> (style, [(x, y)]); style is gnuplot's, e.g. `lines ls 1`."""
-    text = "set xlabel '%s'\nset ylabel '%s'\n%s" % (xlabel, ylabel, commands)
-    text += "plot " + ", ".join("'-' with %s %s" % (style, "title '%s'" % title if title else "notitle")
-                                for title, (style, _) in series.items()) + "\n"
-    draw(path, text + "".join(block(rows) for _, rows in series.values()), height_px)
+    """series: [(title or None, style, [(x, y)])]; style is gnuplot's, e.g. `lines ls 1`."""
+    text = "set xlabel %s\nset ylabel %s\n%s" % (quoted(xlabel), quoted(ylabel), commands)
+    text += "plot " + ", ".join("'-' with %s %s" % (style, "title " + quoted(title) if title else "notitle")
+                                for title, style, _ in series) + "\n"
+    draw(path, text + "".join(block(rows) for _, _, rows in series), height_px)

@@ -18,13 +18,14 @@ def live_rates(results, pictures):
     measured = results.json("live_rates.json")
     if not measured:
         return None
-    rows, series = [], {}
+    rows, series = [], []
     for i, (topic, rates) in enumerate(measured["rates_hz"].items(), 1):
         if not rates:
             continue
         rows.append([topic, "%.2f" % statistics.mean(rates), "%.2f" % min(rates), "%.2f" % max(rates),
                      "%d of %d" % (measured["messages"][topic], measured["pairs"])])
-        series[topic] = ("linespoints ls %d" % i, [((n + 0.5) * measured["window_s"], rate) for n, rate in enumerate(rates)])
+        series.append((topic, "linespoints ls %d" % i,
+                       [((n + 0.5) * measured["window_s"], rate) for n, rate in enumerate(rates)]))
     plots.lines(pictures + "/rates.svg", "time (s)", "messages per second, windows of %g s" % measured["window_s"], series,
                 "set yrange [25:31]\nset xrange [0:*]\n")
     recorded_hz = measured["pairs"] / measured["duration_s"]
@@ -42,9 +43,9 @@ def live_rates(results, pictures):
 
 def yaw_drift(results, pictures):
     drift = results.json("yaw_drift.json")
-    plots.lines(pictures + "/yaw_drift.svg", "time at rest (s)", "change of yaw (deg)", {
-        "simulated module": ("lines ls 1", drift["curve"]),
-        "thesis, at the end": ("points ls 2 ps 1.2", [(THESIS_DRIFT_S, THESIS_DRIFT_DEG)])}, "set xrange [0:620]\n")
+    plots.lines(pictures + "/yaw_drift.svg", "time at rest (s)", "change of yaw (deg)", [
+        ("simulated module", "lines ls 1", drift["curve"]),
+        ("thesis, at the end", "points ls 2 ps 1.2", [(THESIS_DRIFT_S, THESIS_DRIFT_DEG)])], "set xrange [0:620]\n")
     return ("## Yaw drift at rest\n\n%.2f° in %.0f s from the simulated module, which is modelled after the thesis' "
             "(%g° in %g s).\n\n![yaw drift](experiments/yaw_drift.svg)" % (
                 drift["drift_deg"], drift["duration_s"], THESIS_DRIFT_DEG, THESIS_DRIFT_S))
@@ -52,14 +53,14 @@ def yaw_drift(results, pictures):
 
 def features(results, pictures):
     group, point = CONDITIONS
-    series, rows, marks = {}, [], ""
-    for style, (config, colour) in enumerate((("thesis_latest", 2), ("stereo", 1))):
+    series, rows, marks = [], [], ""
+    for config, colour in (("thesis_latest", 2), ("stereo", 1)):
         chosen = results.select(group, point, config)
         drive = chosen[0]
         frames = results.frames(drive)
         for kind, dashes in (("features", 3), ("inliers", 1)):
-            series["%s, %s" % (kind, NAMES[config])] = ("lines ls %d lw 1 dt %d" % (colour, dashes),
-                                                        [(frame["time_s"], frame[kind]) for frame in frames])
+            series.append(("%s, %s" % (kind, NAMES[config]), "lines ls %d lw 1 dt %d" % (colour, dashes),
+                           [(frame["time_s"], frame[kind]) for frame in frames]))
         if not marks:
             times = results.waypoint_times(drive)
             marks = "".join("set arrow %d from %g, graph 0 to %g, graph 1 nohead lc rgb '#9aa4ad' dt 2\n"
@@ -78,11 +79,11 @@ def triangulation(results, pictures):
     measured = results.json("triangulation.json")
     rows = [["%.1f" % row["true_m"], "%g" % row["thesis_m"]] +
             ["%.2f ± %.3f" % tuple(row[key]) if row[key] else "no match" for key in ("32", "64")] for row in measured["rows"]]
-    series = {"thesis": ("points ls 2", [(r["true_m"], r["thesis_m"] - r["true_m"]) for r in measured["rows"]
-                                         if r["thesis_m"] > 0])}
+    series = [("thesis", "points ls 2", [(r["true_m"], r["thesis_m"] - r["true_m"]) for r in measured["rows"]
+                                         if r["thesis_m"] > 0])]
     for style, key in ((3, "32"), (1, "64")):
-        series["range " + key] = ("yerrorlines ls %d" % style, [(r["true_m"], r[key][0] - r["true_m"], r[key][1])
-                                                               for r in measured["rows"] if r[key]])
+        series.append(("range " + key, "yerrorlines ls %d" % style, [
+            (r["true_m"], r[key][0] - r["true_m"], r[key][1]) for r in measured["rows"] if r[key]]))
     plots.lines(pictures + "/triangulation.svg", "true distance (m)", "error (m)", series)
     lost = [row for row in measured["rows"] if not row["32"]]
     explanation = ("f·B is 56.9 px·m: at 1.5 m the disparity is 37.9 px, beyond a search of 32. Then nothing matches; the "
@@ -121,12 +122,12 @@ def position_drives(results, pictures):
     for config, title in (("thesis_latest", "as published"), ("stereo", "default")):
         drives += [("%s, seed %s" % (title, row["seed"]), waypoints(row)) for row in ours[config]]
     start = [(0, 0)]
-    series = {"truth": ("linespoints ls 6 lw 4", start + thesis_drives.WAYPOINTS)}
+    series = [("truth", "linespoints ls 6 lw 4", start + thesis_drives.WAYPOINTS)]
     for title, style, group_drives in (("thesis' drives", 3, thesis_drives.DRIVES),
                                        ("as published", 2, [waypoints(row) for row in ours["thesis_latest"]]),
                                        ("default", 1, [waypoints(row) for row in ours["stereo"]])):
-        for n, drive in enumerate(group_drives):  # one legend for all; spaces keep the keys apart
-            series[title if n == 0 else " " * n + title] = ("linespoints ls %d lw 1" % style, start + list(drive))
+        for n, drive in enumerate(group_drives):
+            series.append((title if n == 0 else None, "linespoints ls %d lw 1" % style, start + list(drive)))
     plots.lines(pictures + "/positions.svg", "x (m)", "y (m)", series, "set size ratio -1\n", 560)
     ends = [end_percent(row) for row in results.select(group, point, "thesis_latest")]
     default = [end_percent(row) for row in results.select(group, point, "stereo")]
