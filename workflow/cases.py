@@ -1,4 +1,5 @@
 """What the experiments run: every case is a simulated drive, evaluated with some configurations of the odometry."""
+import collections
 import hashlib
 import os
 import sys
@@ -6,17 +7,23 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "scripts", "lib"))
 
-# Configurations: a file of config/, what is changed in it, and what is changed in config/disparity.yaml.
+Config = collections.namedtuple("Config", "file odometry disparity true_step_px", defaults=({}, {}, None))
+
+# Configurations: a file of config/, what is changed in it and in config/disparity.yaml; with `true_step_px` the disparity
+# map is the true one, rounded to that step (0: not at all).
 CONFIGS = {
-    "thesis": ("vo_thesis.yaml", {}, {}),
-    "thesis_latest": ("vo_thesis.yaml", {"thesis.disparity": "latest"}, {}),
-    "thesis_vision": ("vo_thesis.yaml", {"thesis.rotation": "vision"}, {}),
-    "thesis_near": ("vo_thesis.yaml", {"thesis.depth.min_disparity_px": 7.0}, {}),
-    "thesis_strict": ("vo_thesis.yaml", {"thesis.rigidity.threshold_m": 0.02}, {}),
+    "thesis": Config("vo_thesis.yaml"),
+    "thesis_latest": Config("vo_thesis.yaml", {"thesis.disparity": "latest"}),
+    "thesis_vision": Config("vo_thesis.yaml", {"thesis.rotation": "vision"}),
+    "thesis_near": Config("vo_thesis.yaml", {"thesis.depth.min_disparity_px": 7.0}),
+    "thesis_strict": Config("vo_thesis.yaml", {"thesis.rigidity.threshold_m": 0.02}),
+    "thesis_true": Config("vo_thesis.yaml", true_step_px="0"),
+    "thesis_true_64th": Config("vo_thesis.yaml", true_step_px="0.015625"),
+    "thesis_true_16th": Config("vo_thesis.yaml", true_step_px="0.0625"),
     # The nearest depth that is found stays 0.89 m when the images get larger.
-    "thesis_range128": ("vo_thesis.yaml", {}, {"disparity_range": 128}),
-    "thesis_range256": ("vo_thesis.yaml", {}, {"disparity_range": 256}),
-    "stereo": ("vo.yaml", {}, {}),
+    "thesis_range128": Config("vo_thesis.yaml", {}, {"disparity_range": 128}),
+    "thesis_range256": Config("vo_thesis.yaml", {}, {"disparity_range": 256}),
+    "stereo": Config("vo.yaml"),
 }
 
 BOTH = ["thesis", "stereo"]
@@ -39,7 +46,7 @@ GROUPS = {
         "turn_in_place": ("turn_in_place", [], ["stereo"]),
     },
     "ideal": {
-        "ideal": ("arena", PERFECT, BOTH + ["thesis_near", "thesis_strict"]),
+        "ideal": ("arena", PERFECT, BOTH + ["thesis_near", "thesis_strict", "thesis_true", "thesis_true_64th", "thesis_true_16th"]),
     },
     "ablation": {
         "10 Hz": ("arena", TEN_HZ, ["thesis"]),
@@ -112,4 +119,4 @@ def simulator_digest():
 
 def odometry_digest():
     return digest("src/vo", "include/stereo_nav/vo", "src/eval", "src/ros_io/stereo_processing.cpp",
-                  "src/tools/evaluate_run.cpp")
+                  "src/tools/evaluate_run.cpp", "src/tools/recorded_disparity.cpp")

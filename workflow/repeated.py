@@ -1,10 +1,9 @@
 """Sections of the report that repeat what the thesis measured (its chapter 4)."""
-import math
 import statistics
 
 import plots
 import thesis_drives
-from results import NAMES, drives_table, end_percent, spread, table, waypoints
+from results import NAMES, course_ratio, drives_table, end_percent, spread, table, waypoints
 
 THESIS_RECT_HZ, THESIS_DISPARITY_HZ, THESIS_LOWEST_HZ = 29.78, 29.735, 29.56
 THESIS_FEATURES, THESIS_INLIERS = 149.99, 61.35
@@ -131,12 +130,16 @@ def position_drives(results, pictures):
     plots.lines(pictures + "/positions.svg", "x (m)", "y (m)", series, "set size ratio -1\n", 560)
     ends = [end_percent(row) for row in results.select(group, point, "thesis_latest")]
     default = [end_percent(row) for row in results.select(group, point, "stereo")]
-    long_paths = results.mean(group, point, "thesis_latest", "path_ratio")
+    ratio = statistics.mean(course_ratio(waypoints(row)) for row in results.select(group, point, "thesis_latest"))
+    theirs = [100 * (course_ratio(drive) - 1) for drive in thesis_drives.DRIVES]
+    same = "as" if ratio > 1 else "unlike"
     return ("## Position: three drives\n\nError at each way-point in metres. Ours are driven under the thesis' conditions: two "
             "cameras with a clock each, 15 ms of blur, the latest disparity map, its IMU. The thesis' figures are recomputed "
             "from its tables.\n\n%s\n\n![positions](experiments/positions.svg)\n\nOver all %d seeds the method as published "
-            "ends %.0f to %.0f %% of the course away from the truth (thesis: 19 to 33 %%), and its path is %.0f %% too %s "
-            "(thesis: 22 to 47 %% too long); the default ends %.1f to %.1f %% away on the same recordings.\n\n%s" % (
-                _waypoint_table(drives), len(ends), min(ends), max(ends), 100 * math.fabs(long_paths - 1),
-                "long" if long_paths > 1 else "short", min(default), max(default),
+            "ends %.0f to %.0f %% of the course away from the truth (thesis: 19 to 33 %%). The way from point to point comes out "
+            "%.0f %% too %s, %s the thesis' (%.0f to %.0f %% too long): the simulation shows errors of that size, %s. The "
+            "default ends %.1f to %.1f %% away on the same recordings.\n\n%s" % (
+                _waypoint_table(drives), len(ends), min(ends), max(ends), 100 * abs(ratio - 1),
+                "long" if ratio > 1 else "short", same, min(theirs), max(theirs),
+                "and of that sign" if ratio > 1 else "but of the other sign", min(default), max(default),
                 drives_table(results, ["ideal", "thesis_conditions"])))

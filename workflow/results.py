@@ -13,6 +13,9 @@ NAMES = {
     "thesis_vision": "as published, rotation from vision",
     "thesis_near": "as published, only features nearer than 8.1 m",
     "thesis_strict": "as published, rigidity threshold 2 cm",
+    "thesis_true": "as published, true disparity",
+    "thesis_true_64th": "as published, true disparity in steps of 1/64 px",
+    "thesis_true_16th": "as published, true disparity in steps of 1/16 px",
     "thesis_range128": "as published (matched disparity)",
     "thesis_range256": "as published (matched disparity)",
     "stereo": "default (vo.yaml)",
@@ -68,6 +71,14 @@ def waypoints(row):
     return json.loads(row["waypoints"])
 
 
+def course_ratio(positions):
+    """Length of the path over the way-points, of the course's: what can be told of the thesis' drives, too."""
+    def length(points):
+        return sum(thesis_drives.distance(a, b) for a, b in zip([(0, 0)] + points, points))
+
+    return length(list(positions)) / length(thesis_drives.WAYPOINTS)
+
+
 def end_percent(row):
     return 100 * float(row["end_error_m"]) / thesis_drives.COURSE_LENGTH_M
 
@@ -98,6 +109,6 @@ def drives_table(results, groups):
                 if chosen:
                     rows.append([point, NAMES[config], len(chosen)] + [spread(row[key] for row in chosen) for key in (
                         "rmse_x_m", "rmse_y_m", "rmse_m", "end_error_m")] + [
-                            spread((end_percent(row) for row in chosen), 1), spread(row["path_ratio"] for row in chosen)])
+                            spread((end_percent(row) for row in chosen), 1), spread(course_ratio(waypoints(row)) for row in chosen)])
     return table(["drive", "configuration", "seeds", "RMSE x (m)", "RMSE y (m)", "RMSE (m)", "end error (m)",
-                  "end error (% of course)", "path, estimated / true"], rows)
+                  "end error (% of course)", "way from point to point, estimated / true"], rows)
