@@ -42,6 +42,8 @@ class SimulatorNode {
   void fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
   void publishUntil(double time_s);
   void renderAhead();
+  void countLate();
+  double lateTolerance_s() const { return 2.0 / simulation_.scenario().timing.rate_hz; }
   void publishPair(const ros_io::PairMessages& pair);
   double now_s() const { return (ros::Time::now() - start_).toSec(); }
 
@@ -56,6 +58,7 @@ class SimulatorNode {
   std::size_t next_to_render_ = 0;
   std::size_t next_imu_ = 0;
   std::size_t next_waypoint_ = 0;
+  std::atomic<double> rendering_s_{0.0};  ///< how long the last pair took
   std::atomic<std::uint64_t> pairs_published_{0}, pairs_late_{0};
   std::uint64_t pairs_late_reported_ = 0;
   diagnostic_updater::Updater updater_;
