@@ -15,8 +15,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// Sections that other nodes read are checked here, too: the launch file then ends with one clear message
-/// rather than with a node that is started again and again.
+/// Sections that other nodes read are checked here, too: wherever a mistake is, this node names it.
 void checkSections(const ros::NodeHandle& private_handle) {
   CaptureSetup cameras;
   cameras.read({ros_io::rigSource(private_handle, ros_io::rig_sections::kCameras)});

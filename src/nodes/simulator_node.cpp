@@ -61,7 +61,7 @@ void SimulatorNode::renderAhead() {
   while (rendering_.size() < threads && next_to_render_ < pairs.size()) {
     const std::size_t index = next_to_render_++;
     // One that cannot be ready in time is not begun: rendering it would make the next ones late, too.
-    if (pairs[index].left_s < now_s() + rendering_s_ - lateTolerance_s()) {
+    if (pairs[index].left_s < now_s() + rendering_s_ - 0.5 * lateTolerance_s()) {
       countLate();
       continue;
     }
@@ -76,10 +76,11 @@ void SimulatorNode::renderAhead() {
 
 void SimulatorNode::countLate() {
   ++pairs_late_;
-  ROS_WARN_THROTTLE(5.0,
-                    "%lu of %lu pairs came too late and were dropped: this machine does not render them in real "
-                    "time. Lower rig/samples_per_pixel or rig/image_scale, or raise ~threads.",
-                    static_cast<unsigned long>(pairs_late_), static_cast<unsigned long>(next_to_render_));
+  ROS_WARN_THROTTLE(
+      5.0,
+      "%lu of %lu pairs came too late and were dropped: this machine does not render them in real "
+      "time. Lower rig/samples_per_pixel or rig/image_scale, or raise ~threads.",
+      static_cast<unsigned long>(pairs_late_), static_cast<unsigned long>(next_to_render_));
 }
 
 void SimulatorNode::publishUntil(double time_s) {
