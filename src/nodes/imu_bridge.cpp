@@ -2,6 +2,7 @@
 #include <ros/ros.h>
 
 #include "stereo_nav/nodes/imu_bridge_node.h"
+#include "stereo_nav/nodes/master_watch.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "imu_bridge");
@@ -10,8 +11,9 @@ int main(int argc, char** argv) {
     // A calibration waits in its service for a quarter of a minute; the rest goes on meanwhile.
     ros::AsyncSpinner spinner(3);
     spinner.start();
+    const stereo_nav::nodes::MasterWatch master;
     node.run();
-    return 0;
+    return master.exitStatus();
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());
     return 2;

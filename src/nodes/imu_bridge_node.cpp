@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "stereo_nav/ros_io/parameter_server.h"
+#include "stereo_nav/ros_io/rig.h"
 #include "stereo_nav/ros_io/topics.h"
 
 namespace stereo_nav::nodes {
@@ -21,7 +22,10 @@ using Covariance = boost::array<double, 9>;
 
 ImuBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
   ImuBridgeParams params;
-  ros_io::readParameters(private_handle, {"diagnostic_period"}, params);
+  ros_io::readParameters({ros_io::fileSource(private_handle, "config"),
+                          ros_io::rigSource(private_handle, ros_io::rig_sections::kImu),
+                          ros_io::serverSource(private_handle, {"diagnostic_period"})},
+                         params);
   return params;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "stereo_nav/nodes/master_watch.h"
 #include "stereo_nav/nodes/slave_api.h"
 
 namespace {
@@ -114,6 +115,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "start_playback");
   ros::NodeHandle handle;
   ros::NodeHandle private_handle("~");
+  const stereo_nav::nodes::MasterWatch master;
   const Wanted wanted{topicsOf("topics"), topicsOf("if_subscribed")};
   const double timeout_s = private_handle.param("timeout_s", 30.0);
   const auto player = private_handle.param<std::string>("player", "player");
@@ -121,7 +123,7 @@ int main(int argc, char** argv) {
   auto pause = handle.serviceClient<std_srvs::SetBool>(player + "/pause_playback");
   while (ros::ok() && !pause.exists()) ros::WallDuration(kPoll_s).sleep();  // the ROS clock stands still yet
   const std::set<std::string> missing = waitForGraph(wanted, timeout_s);
-  if (!ros::ok()) return 0;
+  if (!ros::ok()) return master.exitStatus();
   for (const auto& connection : missing) {
     ROS_WARN("playback starts without %s after %.0f s; did that node fail? First messages may be lost",
              connection.c_str(), timeout_s);

@@ -1,5 +1,6 @@
 #include <ros/ros.h>
 
+#include "stereo_nav/nodes/master_watch.h"
 #include "stereo_nav/nodes/stereo_capture_node.h"
 
 int main(int argc, char** argv) {
@@ -8,10 +9,11 @@ int main(int argc, char** argv) {
   const ros::NodeHandle private_handle("~");
   try {
     const stereo_nav::nodes::StereoCaptureNode node(handle, private_handle);
+    const stereo_nav::nodes::MasterWatch master;
     ros::spin();
+    return master.exitStatus();
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());
     return 2;
   }
-  return 0;
 }

@@ -18,14 +18,16 @@ constexpr unsigned int kTicksPerReport = 4;
 
 VisualOdometryParams readNodeParams(const ros::NodeHandle& private_handle) {
   VisualOdometryParams params;
-  ros_io::readParameters(private_handle, kForeignParameters, params);
+  ros_io::readParameters({ros_io::serverSource(private_handle, kForeignParameters)}, params);
   params.waiting.wait_for_imu = params.imu != VisualOdometryParams::Imu::kNone;
   return params;
 }
 
 vo::OdometryConfig readOdometryConfig(const ros::NodeHandle& private_handle) {
   vo::OdometryConfig config;
-  ros_io::readParameters(ros::NodeHandle(private_handle, "vo"), {}, config);
+  ros_io::readParameters({ros_io::fileSource(private_handle, "config"),
+                          ros_io::serverSource(ros::NodeHandle(private_handle, "vo"))},
+                         config);
   return config;
 }
 
