@@ -26,8 +26,13 @@ class NodeProcess {
 
   /// Exit status; 128 when it was killed by a signal.
   int stop() {
+    if (pid_ > 0) kill(pid_, SIGINT);
+    return wait();
+  }
+
+  /// The same for a program that ends by itself.
+  int wait() {
     if (pid_ <= 0) return status_;
-    kill(pid_, SIGINT);
     int status = 0;
     waitpid(pid_, &status, 0);
     pid_ = 0;
