@@ -1,6 +1,6 @@
-// A robot and a base station on a network of their own (run.sh), whose link is cut for three seconds. This
-// program is a node on the base; it starts the robot's launch files and a recorder there, and reads what the
-// recorder kept.
+// A robot and a base station on a network of their own (run.sh), whose link is cut for STEREO_NAV_CUT_S (3)
+// seconds. This program is a node on the base; it starts the robot's launch files and a recorder there, and
+// reads what the recorder kept.
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
@@ -11,6 +11,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -24,7 +25,10 @@
 namespace stereo_nav::test {
 namespace {
 
-constexpr double kCut_s = 3.0;
+const double kCut_s = [] {
+  const char* seconds = std::getenv("STEREO_NAV_CUT_S");
+  return seconds != nullptr ? std::atof(seconds) : 3.0;
+}();
 constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
 // TCP sends again at 0.2, 0.6, 1.4, 3.0, 6.2, ... s after the first loss: after a cut of 3 s the next attempt
 // comes within 3.2 s. The rest is for a loaded machine.
