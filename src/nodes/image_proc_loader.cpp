@@ -42,8 +42,7 @@ ImageProcLoader::ImageProcLoader(bool exact_stamps, const ros_io::DisparityParam
   loadCamera("left");
   loadCamera("right");
   const ros::NodeHandle disparity(ros::this_node::getName() + "_disparity");
-  ros_io::DisparityParams to_write = disparity_params;
-  ros_io::writeParameters(disparity, [&](ParameterVisitor& visitor) { to_write.describe(visitor); });
+  ros_io::writeParameters(disparity, disparity_params);
   disparity.setParam("approximate_sync", !exact_stamps);
   nodelet::M_string remappings = {{"disparity", resolve("camera/disparity")}};
   for (const std::string side : {"left", "right"}) {

@@ -7,6 +7,7 @@
 #include "stereo_nav/nodes/capture_setup.h"
 #include "stereo_nav/nodes/imu_bridge_node.h"
 #include "stereo_nav/nodes/master_watch.h"
+#include "stereo_nav/nodes/rig_transforms_params.h"
 #include "stereo_nav/ros_io/parameter_server.h"
 #include "stereo_nav/ros_io/rig.h"
 #include "stereo_nav/ros_io/stereo_processing.h"
@@ -14,21 +15,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// Names of the frames; where they are is in the rig file `~rig`.
-struct RigTransformsParams {
-  std::string base_frame = ros_io::frames::kBase;
-  std::string camera_frame = ros_io::frames::kLeftOptical;
-  std::string imu_frame = ros_io::frames::kImu;
-
-  void describe(ParameterVisitor& visitor) {
-    visitor.text("base_frame", base_frame, "frame of the robot, x forward, y left, z up");
-    visitor.text("camera_frame", camera_frame, "left optical frame, x right, y down, z forward");
-    visitor.text("imu_frame", imu_frame, "frame of the IMU's messages");
-  }
-};
-
-/// Sections that other nodes read are checked here, too: the launch file then ends with one clear message
-/// rather than with a node that is started again and again.
+/// Sections that other nodes read are checked here, too: wherever a mistake is, this node names it.
 void checkSections(const ros::NodeHandle& private_handle) {
   CaptureSetup cameras;
   cameras.read({ros_io::rigSource(private_handle, ros_io::rig_sections::kCameras)});

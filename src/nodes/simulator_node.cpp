@@ -57,10 +57,30 @@ void SimulatorNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& stat
 
 void SimulatorNode::renderAhead() {
   const auto threads = static_cast<std::size_t>(params_.threads);
-  while (rendering_.size() < threads && next_to_render_ < simulation_.pairs().size()) {
+  const auto& pairs = simulation_.pairs();
+  while (rendering_.size() < threads && next_to_render_ < pairs.size()) {
     const std::size_t index = next_to_render_++;
-    rendering_.push_back(std::async(std::launch::async, [this, index] { return messages_.pair(index); }));
+    // One that cannot be ready in time is not begun: rendering it would make the next ones late, too.
+    if (pairs[index].left_s < now_s() + rendering_s_ - 0.5 * lateTolerance_s()) {
+      countLate();
+      continue;
+    }
+    rendering_.push_back(std::async(std::launch::async, [this, index] {
+      const ros::WallTime begin = ros::WallTime::now();
+      ros_io::PairMessages pair = messages_.pair(index);
+      rendering_s_ = (ros::WallTime::now() - begin).toSec();
+      return pair;
+    }));
   }
+}
+
+void SimulatorNode::countLate() {
+  ++pairs_late_;
+  ROS_WARN_THROTTLE(
+      5.0,
+      "%lu of %lu pairs came too late and were dropped: this machine does not render them in real "
+      "time. Lower rig/samples_per_pixel or rig/image_scale, or raise ~threads.",
+      static_cast<unsigned long>(pairs_late_), static_cast<unsigned long>(next_to_render_));
 }
 
 void SimulatorNode::publishUntil(double time_s) {
@@ -86,7 +106,6 @@ void SimulatorNode::publishPair(const ros_io::PairMessages& pair) {
 }
 
 void SimulatorNode::run() {
-  const double tolerance_s = 2.0 / simulation_.scenario().timing.rate_hz;
   renderAhead();
   while (ros::ok() && !rendering_.empty()) {
     const ros_io::PairMessages pair = rendering_.front().get();
@@ -98,13 +117,8 @@ void SimulatorNode::run() {
       ros::WallDuration(std::min(0.004, pair.available_s - now)).sleep();
     }
     publishUntil(pair.available_s);
-    if (now_s() > pair.available_s + tolerance_s) {
-      ++pairs_late_;
-      ROS_WARN_THROTTLE(
-          5.0,
-          "%lu of %lu pairs came too late and were dropped: this machine does not render them in real "
-          "time. Lower rig/samples_per_pixel or rig/image_scale, or raise ~threads.",
-          static_cast<unsigned long>(pairs_late_), static_cast<unsigned long>(next_to_render_));
+    if (now_s() > pair.available_s + lateTolerance_s()) {
+      countLate();
       continue;
     }
     publishPair(pair);

@@ -73,6 +73,7 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
     image_proc_ = std::make_unique<ImageProcLoader>(params_.stamps == capture::CaptureParams::Stamps::Common,
                                                     readDisparityParams(private_handle_));
   }
+  ros_io::writeParameters(private_handle_, setup_.params);
   // Calls back at once with the parameters as they are.
   reconfigure_server_ = std::make_unique<dynamic_reconfigure::Server<StereoCaptureConfig>>(private_handle_);
   reconfigure_server_->setCallback(

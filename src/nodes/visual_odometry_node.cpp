@@ -101,12 +101,35 @@ VisualOdometryNode::VisualOdometryNode(const ros::NodeHandle& handle, const ros:
   reset_service_ = handle_.advertiseService("vo/reset", &VisualOdometryNode::handleReset, this);
   set_pose_service_ = handle_.advertiseService("vo/set_pose", &VisualOdometryNode::handleSetPose, this);
   subscribe();
+  offerReconfiguration();
   timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s), &VisualOdometryNode::handleTimer, this);
 }
 
 VisualOdometryNode::~VisualOdometryNode() {
   inbox_.stop();
   worker_.join();
+}
+
+/// Both call back at once with the parameters as they are, which they take from the server.
+void VisualOdometryNode::offerReconfiguration() {
+  ros_io::writeParameters(private_handle_, params_);
+  reconfigure_server_ = std::make_unique<dynamic_reconfigure::Server<VisualOdometryConfig>>(private_handle_);
+  reconfigure_server_->setCallback([this](const VisualOdometryConfig& config, std::uint32_t) {
+    monitor_->setTimeout(config.input_timeout_s);
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    publisher_.setLive(config.publish_tf, config.path_spacing_m);
+  });
+  uncertainty_server_ = std::make_unique<dynamic_reconfigure::Server<UncertaintyConfig>>(
+      ros::NodeHandle(private_handle_, "uncertainty"));
+  uncertainty_server_->setCallback([this](const UncertaintyConfig& config, std::uint32_t) {
+    UncertaintyParams uncertainty;
+    uncertainty.min_translation_sigma_m = config.min_translation_sigma_m;
+    uncertainty.min_rotation_sigma_rad = config.min_rotation_sigma_rad;
+    uncertainty.lost_speed_m_s = config.lost_speed_m_s;
+    uncertainty.lost_turn_rate_rad_s = config.lost_turn_rate_rad_s;
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    session_.setUncertainty(uncertainty);
+  });
 }
 
 std::size_t VisualOdometryNode::watch(const std::string& topic, bool stamped, const std::string& remedy,

@@ -82,10 +82,14 @@ YAML::Node parameterTree(const ros::NodeHandle& handle, const std::set<std::stri
   return tree;
 }
 
+namespace internal {
+
 void writeParameters(const ros::NodeHandle& handle, const std::function<void(ParameterVisitor&)>& describe) {
   ServerWriter writer(handle);
   describe(writer);
 }
+
+}  // namespace internal
 
 ParameterSource fileSource(const ros::NodeHandle& private_handle, const std::string& name) {
   const std::string path = pathIn(private_handle, name);

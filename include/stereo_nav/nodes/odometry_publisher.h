@@ -29,6 +29,7 @@ class OdometryPublisher {
 
   void publish(const FrameMessages& frame, const SessionOutput& output, const FrameCounts& counts);
   void forgetPath() { path_.poses.clear(); }
+  void setLive(bool publish_tf, double path_spacing_m);
 
  private:
   void publishOdometry(const FrameMessages& frame, const BaseEstimate& base);

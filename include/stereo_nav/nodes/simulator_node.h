@@ -42,6 +42,8 @@ class SimulatorNode {
   void fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
   void publishUntil(double time_s);
   void renderAhead();
+  void countLate();
+  double lateTolerance_s() const { return 2.0 / simulation_.scenario().timing.rate_hz; }
   void publishPair(const ros_io::PairMessages& pair);
   double now_s() const { return (ros::Time::now() - start_).toSec(); }
 
@@ -52,6 +54,7 @@ class SimulatorNode {
   image_transport::ImageTransport transport_;
   image_transport::Publisher left_image_, right_image_;
   ros::Publisher left_info_, right_info_, sync_, imu_, imu_quaternion_, ground_truth_, waypoint_, tf_static_;
+  std::atomic<double> rendering_s_{0.0};  ///< how long the last pair took
   std::deque<std::future<ros_io::PairMessages>> rendering_;
   std::size_t next_to_render_ = 0;
   std::size_t next_imu_ = 0;

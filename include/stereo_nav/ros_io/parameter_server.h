@@ -21,8 +21,17 @@ YAML::Node toYaml(const XmlRpc::XmlRpcValue& value);
 /// nothing.
 YAML::Node parameterTree(const ros::NodeHandle& handle, const std::set<std::string>& except = {});
 
-/// Writes every field of `params` below the handle's namespace, as libraries that read the server want them.
+namespace internal {
 void writeParameters(const ros::NodeHandle& handle, const std::function<void(ParameterVisitor&)>& describe);
+}
+
+/// Writes every field below the handle's namespace: for libraries that take their values from there,
+/// dynamic_reconfigure among them, and for `rosparam get`.
+template <class Params>
+void writeParameters(const ros::NodeHandle& handle, const Params& params) {
+  Params copy = params;
+  internal::writeParameters(handle, [&copy](ParameterVisitor& visitor) { copy.describe(visitor); });
+}
 
 /// Where values come from, with the name that messages give it.
 struct ParameterSource {
