@@ -81,9 +81,9 @@ external_package_runs() {
 # The other package's launch file loads the nodelet into its own manager, and odometry comes out of that.
 external_nodelet_runs() (
   export ROS_MASTER_URI=http://localhost:$((20000 + $$ % 10000)) ROS_HOSTNAME=localhost ROS_HOME=$work_dir/ros_home
-  as_user exec roslaunch -p "${ROS_MASTER_URI##*:}" "$STEREO_NAV_ROOT/test/external_package/launch/own_manager.launch" &
-  launch=$!
-  trap 'kill -INT $launch; wait $launch' EXIT
+  as_user roslaunch -p "${ROS_MASTER_URI##*:}" --pid="$work_dir/roslaunch.pid" \
+    "$STEREO_NAV_ROOT/test/external_package/launch/own_manager.launch" &
+  trap 'kill -INT "$(cat "$work_dir/roslaunch.pid")"; wait' EXIT
   as_user timeout 120 bash -c 'until rostopic info /odom 2>/dev/null | grep -q "/own_manager "; do sleep 1; done' &&
     as_user timeout 120 rostopic echo -n 1 /odom
 )

@@ -34,22 +34,30 @@ constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits thi
 // comes within 3.2 s. The rest is for a loaded machine.
 constexpr double kResume_s = 20.0;
 
+/// A folder of this run; processes in namespaces have the same numbers in every run.
+class Folder {
+ public:
+  Folder() {
+    if (mkdtemp(path_) == nullptr) throw std::runtime_error("cannot make a folder in /tmp");
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return std::string(path_) + "/" + name; }
+
+ private:
+  char path_[32] = "/tmp/stereo_nav_network_XXXXXX";
+};
+
 /// A command on the robot, where the master runs, or on the base.
 class Machine {
  public:
   Machine(std::string name, std::string address) : name_(std::move(name)), address_(std::move(address)) {}
 
-  std::unique_ptr<NodeProcess> start(const std::vector<std::string>& command) const {
-    const std::string log = testing::TempDir() + "ros_home_" + name_;
-    std::vector<std::string> words = {"/usr/bin/env",
-                                      "ip",
-                                      "netns",
-                                      "exec",
-                                      name_,
-                                      "env",
-                                      "ROS_IP=" + address_,
-                                      "ROS_MASTER_URI=http://10.0.0.1:11311",
-                                      "ROS_HOME=" + log};
+  std::unique_ptr<NodeProcess> start(const Folder& folder, const std::vector<std::string>& command) const {
+    std::vector<std::string> words = {"/usr/bin/env", "ip", "netns", "exec", name_, "env"};
+    words.insert(words.end(), {"ROS_IP=" + address_, "ROS_MASTER_URI=http://10.0.0.1:11311",
+                               "ROS_HOME=" + folder / ("ros_home_" + name_)});
     words.insert(words.end(), command.begin(), command.end());
     return std::make_unique<NodeProcess>(words);
   }
@@ -167,10 +175,10 @@ class TwoMachines : public testing::Test {
  protected:
   /// Starts `command` on the robot, beside a recorder of what must not suffer there.
   void startRobot(const std::vector<std::string>& command) {
-    robot_ = kRobot.start(command);
+    robot_ = kRobot.start(folder_, command);
     ASSERT_TRUE(waitUntil([] { return ros::master::check(); }, kLongWait_s)) << "no master on the robot";
-    recorder_ =
-        kRobot.start({"rosbag", "record", "--quiet", "--output-name=" + bag_, "/odom", "/camera/sync"});
+    recorder_ = kRobot.start(
+        folder_, {"rosbag", "record", "--quiet", "--output-name=" + bag_, "/odom", "/camera/sync"});
   }
 
   /// Cuts the link, joins it again, and waits until everything that `arrivals` listens to goes on.
@@ -204,10 +212,11 @@ class TwoMachines : public testing::Test {
     robot_.reset();
   }
 
+  const Folder folder_;
   ros::Time cut_, link_up_;
 
  private:
-  const std::string bag_ = testing::TempDir() + "robot.bag";
+  const std::string bag_ = folder_ / "robot.bag";
   std::unique_ptr<NodeProcess> robot_, recorder_;
 };
 
@@ -232,7 +241,7 @@ TEST_F(TwoMachines, OdometryOnTheRobotIsUndisturbedAndItsPicturesResumeOnTheBase
 
 TEST_F(TwoMachines, OdometryOnTheBaseGoesOnAfterACutAndTheCamerasAreUndisturbed) {
   ASSERT_NO_FATAL_FAILURE(startRobot(robotLaunch({"odometry:=false"})));
-  const auto odometry = kBase.start({"roslaunch", "stereo_nav", "odometry.launch"});
+  const auto odometry = kBase.start(folder_, {"roslaunch", "stereo_nav", "odometry.launch"});
   Arrivals arrivals;
   arrivals.listen<nav_msgs::Odometry>("odom");
   arrivals.listen<VoStatus>("vo/status");
@@ -260,8 +269,8 @@ TEST_F(TwoMachines, OdometryThatStartsAnewDuringTheCutIsFoundByTheBase) {
   Arrivals arrivals;
   arrivals.listen<nav_msgs::Odometry>("odom");
   arrivals.listen<VoStatus>("vo/status");
-  ASSERT_NO_FATAL_FAILURE(cutTheLink(arrivals, [] {
-    kRobot.start({"rosnode", "kill", "/visual_odometry"})->wait();
+  ASSERT_NO_FATAL_FAILURE(cutTheLink(arrivals, [this] {
+    kRobot.start(folder_, {"rosnode", "kill", "/visual_odometry"})->wait();
   }));
 }
 
