@@ -6,7 +6,7 @@
 
 #include "stereo_nav/nodes/capture_setup.h"
 #include "stereo_nav/nodes/imu_bridge_node.h"
-#include "stereo_nav/nodes/master_watch.h"
+#include "stereo_nav/nodes/node_program.h"
 #include "stereo_nav/nodes/rig_transforms_params.h"
 #include "stereo_nav/ros_io/parameter_server.h"
 #include "stereo_nav/ros_io/rig.h"
@@ -64,20 +64,13 @@ int run() {
   });
   const ros::WallTimer timer =
       handle.createWallTimer(ros::WallDuration(1.0), [&](const ros::WallTimerEvent&) { updater.update(); });
-  const MasterWatch master;
   ros::spin();
-  return master.exitStatus();
+  return 0;
 }
 
 }  // namespace
 }  // namespace stereo_nav::nodes
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "rig_transforms");
-  try {
-    return stereo_nav::nodes::run();
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 2;
-  }
+  return stereo_nav::nodes::runNode(argc, argv, "rig_transforms", stereo_nav::nodes::run);
 }

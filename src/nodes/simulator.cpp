@@ -1,11 +1,10 @@
 // A simulated robot at real time, in place of stereo_capture and imu_bridge.
-#include <exception>
 #include <sstream>
 
 #include "package_files.h"
 #include "stereo_nav/nodes/capture_setup.h"
 #include "stereo_nav/nodes/image_proc_loader.h"
-#include "stereo_nav/nodes/master_watch.h"
+#include "stereo_nav/nodes/node_program.h"
 #include "stereo_nav/nodes/simulator_node.h"
 #include "stereo_nav/ros_io/parameter_server.h"
 #include "stereo_nav/ros_io/rig.h"
@@ -61,20 +60,13 @@ int run() {
   }
   ros::AsyncSpinner spinner(1);  // for nodelets and diagnostics
   spinner.start();
-  const MasterWatch master;
   SimulatorNode(node, simulation, params, rig.T_base_imu).run();
-  return master.exitStatus();
+  return 0;
 }
 
 }  // namespace
 }  // namespace stereo_nav::nodes
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "simulator");
-  try {
-    return stereo_nav::nodes::run();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
+  return stereo_nav::nodes::runNode(argc, argv, "simulator", stereo_nav::nodes::run);
 }

@@ -1,7 +1,6 @@
 // Holds a paused `rosbag play` until every subscriber of the graph is connected, then lets it run once. A
 // subscriber that connects later misses what was published before; with a chain of nodelets that is the first
 // few frames.
-#include <ros/ros.h>
 #include <std_srvs/SetBool.h>
 
 #include <map>
@@ -10,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "stereo_nav/nodes/master_watch.h"
+#include "stereo_nav/nodes/node_program.h"
 #include "stereo_nav/nodes/slave_api.h"
 
 namespace {
@@ -109,13 +108,9 @@ std::vector<std::string> topicsOf(const char* parameter) {
   return topics;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "start_playback");
+int run() {
   ros::NodeHandle handle;
   ros::NodeHandle private_handle("~");
-  const stereo_nav::nodes::MasterWatch master;
   const Wanted wanted{topicsOf("topics"), topicsOf("if_subscribed")};
   const double timeout_s = private_handle.param("timeout_s", 30.0);
   const auto player = private_handle.param<std::string>("player", "player");
@@ -123,7 +118,7 @@ int main(int argc, char** argv) {
   auto pause = handle.serviceClient<std_srvs::SetBool>(player + "/pause_playback");
   while (ros::ok() && !pause.exists()) ros::WallDuration(kPoll_s).sleep();  // the ROS clock stands still yet
   const std::set<std::string> missing = waitForGraph(wanted, timeout_s);
-  if (!ros::ok()) return master.exitStatus();
+  if (!ros::ok()) return 0;
   for (const auto& connection : missing) {
     ROS_WARN("playback starts without %s after %.0f s; did that node fail? First messages may be lost",
              connection.c_str(), timeout_s);
@@ -136,4 +131,10 @@ int main(int argc, char** argv) {
   }
   ROS_INFO("all connected, playback starts");
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return stereo_nav::nodes::runNode(argc, argv, "start_playback", run);
 }

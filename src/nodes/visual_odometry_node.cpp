@@ -95,6 +95,7 @@ VisualOdometryNode::VisualOdometryNode(const ros::NodeHandle& handle, const ros:
       inbox_(params_.waiting),
       session_(params_, readOdometryConfig(private_handle_), lookupIn(tf_buffer_)),
       publisher_(handle_, params_),
+      disparity_view_(handle_),
       image_transport_(handle_) {
   monitor_ = std::make_unique<InputMonitor>(params_.input_timeout_s, watchedSeconds());
   worker_ = std::thread(&VisualOdometryNode::work, this);

@@ -39,11 +39,28 @@ class OwnMaster {
   }
   ~OwnMaster() { setenv("ROS_MASTER_URI", uri_before_.c_str(), 1); }
 
-  void start() { process_.emplace("PATH=/usr/bin:$PATH exec rosmaster --core -p " + std::to_string(port_)); }
+  /// Returns when it answers.
+  void start() {
+    process_.emplace("PATH=/usr/bin:$PATH exec rosmaster --core -p " + std::to_string(port_));
+    while (!answers()) {
+      if (process_->waitFor(0.05)) throw std::runtime_error("rosmaster has ended: " + process_->output());
+    }
+  }
   /// At once, as in a crash.
   void crash() { process_.reset(); }
 
  private:
+  bool answers() const {
+    const int fd = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(port_));
+    const bool connected = connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+    close(fd);
+    return connected;
+  }
+
   int port_;
   std::string uri_before_;
   std::optional<BackgroundCommand> process_;

@@ -44,7 +44,6 @@ class OdometryPublisher {
   ros::Publisher features_publisher_;
   image_transport::ImageTransport image_transport_;
   image_transport::Publisher debug_publisher_;
-  image_transport::Publisher disparity_publisher_;
   tf2_ros::TransformBroadcaster tf_;
   nav_msgs::Path path_;
 };

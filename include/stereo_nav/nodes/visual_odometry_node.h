@@ -17,6 +17,7 @@
 #include "stereo_nav/SetPose.h"
 #include "stereo_nav/UncertaintyConfig.h"
 #include "stereo_nav/VisualOdometryConfig.h"
+#include "stereo_nav/nodes/disparity_view.h"
 #include "stereo_nav/nodes/health.h"
 #include "stereo_nav/nodes/inbox.h"
 #include "stereo_nav/nodes/input_monitor.h"
@@ -90,6 +91,7 @@ class VisualOdometryNode {
   OdometrySession session_;
   OdometryPublisher publisher_;  ///< under session_mutex_
 
+  DisparityView disparity_view_;
   image_transport::ImageTransport image_transport_;
   image_transport::Subscriber left_subscriber_, right_subscriber_;
   ros::Subscriber disparity_subscriber_, sync_subscriber_, left_info_subscriber_, right_info_subscriber_,
