@@ -37,6 +37,38 @@ double nearestNeighbours_px(const Corners& corners, const Checkerboard& board) {
   return nearest;
 }
 
+/// OpenCV's detector in the image made `scale` times as large.
+std::optional<Corners> detect(const cv::Mat& image, const Checkerboard& board, int scale) {
+  cv::Mat larger = image;
+  if (scale != 1) cv::resize(image, larger, cv::Size(), scale, scale, cv::INTER_LINEAR);
+  Corners corners;
+  if (!cv::findChessboardCorners(larger, cv::Size(board.columns, board.rows), corners,
+                                 cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE))
+    return std::nullopt;
+  const auto factor = static_cast<float>(scale), centre = 0.5f * (factor - 1.0f);
+  for (cv::Point2f& corner : corners) corner = (corner - cv::Point2f(centre, centre)) / factor;
+  return corners;
+}
+
+/// Whether each corner is about midway between its neighbours. Now and then the detector takes something
+/// else, a square away, for an outer corner.
+bool isEven(const Corners& corners, const Checkerboard& board) {
+  constexpr double kShare = 0.25;  // of a square; a slanted board near a wide lens comes to 0.1
+  const auto midway = [](const cv::Point2f& before, const cv::Point2f& corner, const cv::Point2f& after) {
+    return cv::norm(before - 2.0f * corner + after) < kShare * 0.5 * cv::norm(after - before);
+  };
+  for (int row = 0; row < board.rows; ++row) {
+    for (int column = 0; column < board.columns; ++column) {
+      const auto at = [&](int r, int c) { return corners[indexOf(board, r, c)]; };
+      const bool inner_column =
+          column > 0 && column<board.columns - 1, inner_row = row> 0 && row < board.rows - 1;
+      if (inner_column && !midway(at(row, column - 1), at(row, column), at(row, column + 1))) return false;
+      if (inner_row && !midway(at(row - 1, column), at(row, column), at(row + 1, column))) return false;
+    }
+  }
+  return true;
+}
+
 /// The detector may begin at any corner of the board: rows to the right, columns downwards, not mirrored.
 void standUpright(Corners& corners, const Checkerboard& board) {
   if (alongRow(corners, board).cross(alongColumn(corners, board)) < 0.0) {
@@ -73,20 +105,17 @@ std::vector<Eigen::Vector3d> Checkerboard::corners() const {
 
 std::optional<Corners> findCorners(const cv::Mat& image, const Checkerboard& board) {
   check(image, board);
-  const cv::Size size(board.columns, board.rows);
-  constexpr int kFlags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE;
-  Corners corners;
-  if (!cv::findChessboardCorners(image, size, corners, kFlags)) {
-    cv::Mat larger;
-    cv::resize(image, larger, cv::Size(), 2.0, 2.0, cv::INTER_LINEAR);
-    if (!cv::findChessboardCorners(larger, size, corners, kFlags)) return std::nullopt;
-    for (cv::Point2f& corner : corners) corner = 0.5f * (corner - cv::Point2f(0.5f, 0.5f));
+  for (const int scale : {1, 2}) {
+    auto corners = detect(image, board, scale);
+    if (!corners) continue;
+    const int window = std::clamp(static_cast<int>(0.35 * nearestNeighbours_px(*corners, board)), 2, 11);
+    cv::cornerSubPix(image, *corners, cv::Size(window, window), cv::Size(-1, -1),
+                     {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 0.001});
+    if (!isEven(*corners, board)) continue;
+    standUpright(*corners, board);
+    return corners;
   }
-  const int window = std::clamp(static_cast<int>(0.35 * nearestNeighbours_px(corners, board)), 2, 11);
-  cv::cornerSubPix(image, corners, cv::Size(window, window), cv::Size(-1, -1),
-                   {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 0.001});
-  standUpright(corners, board);
-  return corners;
+  return std::nullopt;
 }
 
 std::optional<BoardCorners> findCorners(const cv::Mat& left, const cv::Mat& right,

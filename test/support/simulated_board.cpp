@@ -8,7 +8,14 @@
 namespace stereo_nav::test {
 namespace {
 
-constexpr int kSub = 4;  // rays along each side of a pixel
+/// Rays of a pixel, no two in one column or row, so that edges along the rows are as smooth as slanted ones
+/// (Hammersley's points).
+constexpr int kRays = 16;
+Eigen::Vector2d rayInPixel(int ray) {
+  const int reversed = (ray & 1) << 3 | (ray & 2) << 1 | (ray & 4) >> 1 | (ray & 8) >> 3;
+  return {(ray + 0.5) / kRays - 0.5, (reversed + 0.5) / kRays - 0.5};
+}
+
 constexpr float kWhite = 200.0f, kBlack = 35.0f, kWall = 120.0f;
 constexpr double kDegree = M_PI / 180.0;
 
@@ -37,8 +44,8 @@ SimulatedBoard::Eye SimulatedBoard::makeEye(const sim::CameraCalibration& calibr
   Eye eye{calibration, {}};
   for (int y = 0; y < calibration.height; ++y) {
     for (int x = 0; x < calibration.width; ++x) {
-      for (int sub = 0; sub < kSub * kSub; ++sub) {
-        const Eigen::Vector2d pixel(x + (sub % kSub + 0.5) / kSub - 0.5, y + (sub / kSub + 0.5) / kSub - 0.5);
+      for (int ray = 0; ray < kRays; ++ray) {
+        const Eigen::Vector2d pixel = Eigen::Vector2d(x, y) + rayInPixel(ray);
         eye.rays.push_back(calibration.R * calibration.undistort(pixel).homogeneous());
       }
     }
@@ -55,13 +62,13 @@ cv::Mat SimulatedBoard::draw(const Eye& eye, const Eigen::Isometry3d& T_camera_b
   for (int y = 0; y < light.rows; ++y) {
     for (int x = 0; x < light.cols; ++x) {
       float sum = 0.0f;
-      for (int sub = 0; sub < kSub * kSub; ++sub) {
+      for (int i = 0; i < kRays; ++i) {
         const Eigen::Vector3d direction = T_board_camera.linear() * *ray++;
         const double distance = -origin.z() / direction.z();
         sum +=
             greyLevel(board_, origin.x() + distance * direction.x(), origin.y() + distance * direction.y());
       }
-      light.at<float>(y, x) = sum / (kSub * kSub);
+      light.at<float>(y, x) = sum / kRays;
     }
   }
   cv::GaussianBlur(light, light, cv::Size(), faults_.blur_px * eye.calibration.width / 640.0);

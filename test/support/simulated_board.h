@@ -18,7 +18,7 @@ struct WebcamFaults {
   double right_gain = 0.85;  ///< the right camera's images are darker
 };
 
-/// Draws a checkerboard as two webcams see it: raw, distorted images. Each pixel is the mean of 4x4 rays
+/// Draws a checkerboard as two webcams see it: raw, distorted images. Each pixel is the mean of 16 rays
 /// through the lens model, blurred, with vignetting and noise (sim::ImageSensor).
 class SimulatedBoard {
  public:
@@ -42,7 +42,7 @@ class SimulatedBoard {
  private:
   struct Eye {
     sim::CameraCalibration calibration;
-    std::vector<Eigen::Vector3d> rays;  ///< rectified optical frame, [row][column][sub-row][sub-column]
+    std::vector<Eigen::Vector3d> rays;  ///< rectified optical frame, [row][column][ray]
   };
   static Eye makeEye(const sim::CameraCalibration& calibration);
   cv::Mat draw(const Eye& eye, const Eigen::Isometry3d& T_camera_board, double gain, std::uint64_t key) const;
