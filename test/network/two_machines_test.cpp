@@ -270,7 +270,7 @@ TEST_F(TwoMachines, OdometryThatStartsAnewDuringTheCutIsFoundByTheBase) {
   arrivals.listen<nav_msgs::Odometry>("odom");
   arrivals.listen<VoStatus>("vo/status");
   ASSERT_NO_FATAL_FAILURE(cutTheLink(arrivals, [this] {
-    kRobot.start(folder_, {"rosnode", "kill", "/visual_odometry"})->wait();
+    kRobot.start(folder_, {"rosnode", "kill", "/visual_odometry"})->join();
   }));
 }
 
