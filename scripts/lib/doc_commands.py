@@ -24,7 +24,7 @@ def code_blocks(text):
     fence, block, previous = None, [], ''
     for line in text.splitlines():
         opening = re.match(r'\s*```(\w*)', line)
-        indented = re.match(r' {4,}\S', line) and (block or not previous.strip())
+        indented = re.match(r' {4,}\S', line) and (block or not previous.strip() or previous.startswith('#'))
         if opening and fence is None:
             fence, block = opening.group(1), []
         elif opening:
@@ -61,7 +61,7 @@ def table(root):
 
 def words_to_hold(command):
     """What a test that executes `command` has in its text: the program and the names of its arguments."""
-    words = re.findall(r'[\w.]+\.launch|[\w/]+\.(?:sh|py)\b', command)
+    words = re.findall(r'[\w.]+\.launch|[\w/]+\.(?:sh|py)\b|\w+_test\b', command)
     run = re.search(r'rosrun \w+ (\S+)', command)
     words += [run.group(1)] if run else []
     words += re.findall(r'(?<=\s)--[a-z][a-z-]*|(?<=\s)\w+(?=:=)', command)
@@ -97,7 +97,7 @@ def existence_problems(root, document, text):
     for script in re.findall(r'(?<![\w/.])(?:scripts|test)/[\w/]+\.(?:sh|py)\b', text):
         if not (root / script).exists():
             yield f'{document}: no such script: {script}'
-    for program in re.findall(r'rosrun stereo_nav (\w[\w.]*\w)', text):
+    for program in re.findall(r'rosrun stereo_nav ([a-z][\w.]*\w)', text):
         if program not in programs(root):
             yield f'{document}: no such program: {program}'
     for launch, arguments in re.findall(r'(?:roslaunch stereo_nav |`)(\w+\.launch)((?:\s+(?:\\\s+)?\w+:=\S*)*)', text):
