@@ -121,7 +121,12 @@ TEST_F(CheckCalibrationTest, InputThatCannotBeUsedIsRefused) {
   fs::create_directories(folder / "empty");
   expectRefusal(file("empty"), "left.yaml: does not exist");
   expectRefusal(file("empty") + " --calibration " + file("good"), "no pair of images");
-  expectRefusal(file("good") + " --size 9x6", "is in none of 5 pairs: check --size");
+  fs::create_directories(folder / "one");
+  for (const std::string side : {"left", "right"}) {
+    fs::copy_file(file("good/" + side + "01.png"), file("one/" + side + "01.png"));
+  }
+  expectRefusal(file("one") + " --size 9x6 --calibration " + file("good"),
+                "is in none of 1 pairs: check --size");
   expectRefusal(file("good") + " --size 8by6", "--size is '8by6'");
   expectRefusal(file("good") + " --square 51", "--square is in metres");
   expectRefusal(file("nothing.bag"), "nothing.bag");
