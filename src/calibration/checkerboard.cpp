@@ -42,8 +42,9 @@ std::optional<Corners> detect(const cv::Mat& image, const Checkerboard& board, i
   cv::Mat larger = image;
   if (scale != 1) cv::resize(image, larger, cv::Size(), scale, scale, cv::INTER_LINEAR);
   Corners corners;
-  if (!cv::findChessboardCorners(larger, cv::Size(board.columns, board.rows), corners,
-                                 cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE))
+  if (!cv::findChessboardCorners(
+          larger, cv::Size(board.columns, board.rows), corners,
+          cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK))
     return std::nullopt;
   const auto factor = static_cast<float>(scale), centre = 0.5f * (factor - 1.0f);
   for (cv::Point2f& corner : corners) corner = (corner - cv::Point2f(centre, centre)) / factor;
@@ -105,7 +106,9 @@ std::vector<Eigen::Vector3d> Checkerboard::corners() const {
 
 std::optional<Corners> findCorners(const cv::Mat& image, const Checkerboard& board) {
   check(image, board);
-  for (const int scale : {1, 2}) {
+  // The larger picture takes seconds where there is no board; webcams of 640x480 do without.
+  const int largest_scale = image.cols < 640 ? 2 : 1;
+  for (int scale = 1; scale <= largest_scale; ++scale) {
     auto corners = detect(image, board, scale);
     if (!corners) continue;
     const int window = std::clamp(static_cast<int>(0.35 * nearestNeighbours_px(*corners, board)), 2, 11);

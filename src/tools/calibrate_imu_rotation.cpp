@@ -113,8 +113,8 @@ void print(const calibration::ImuCameraRotation& found) {
               std::abs(found.imu_offset_s) > 0.02 ? "; worth correcting" : "");
   std::printf("bias of its rates: %.4f, %.4f, %.4f rad/s\n", found.bias_rad_s.x(), found.bias_rad_s.y(),
               found.bias_rad_s.z());
-  std::printf("deviation about the camera's x, y, z axis: %.3f, %.3f, %.3f deg\n", sigma.x(), sigma.y(),
-              sigma.z());
+  std::printf("deviation about the camera's x, y, z axis: %.3f, %.3f, %.3f deg (of chance alone)\n",
+              sigma.x(), sigma.y(), sigma.z());
 }
 
 int run(int argc, char** argv) {

@@ -6,9 +6,11 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
 #include "stereo_nav/params/parameters.h"
 #include "support/command.h"
@@ -29,6 +31,8 @@ class BoardPublisher {
     const ros::Time stamp = ros::Time::now();
     left_.publish(message(rig.draw(moment_, 0.0), stamp));
     right_.publish(message(rig.draw(moment_, rig.baseline_m), stamp + ros::Duration(0.01)));
+    left_info_.publish(info(0.0));
+    right_info_.publish(info(rig.baseline_m));
     moment_ += 1.0;
   }
   bool isHeard() const { return left_.getNumSubscribers() > 0 && right_.getNumSubscribers() > 0; }
@@ -48,7 +52,24 @@ class BoardPublisher {
     return message;
   }
 
+  /// The true calibration.
+  sensor_msgs::CameraInfo info(double camera_x_m) const {
+    sensor_msgs::CameraInfo info;
+    info.header.frame_id = "camera_left_optical";
+    info.width = static_cast<std::uint32_t>(rig.width);
+    info.height = static_cast<std::uint32_t>(rig.height);
+    info.distortion_model = "plumb_bob";
+    info.D.assign(5, 0.0);
+    const double f = rig.focal_length_px, cx = 0.5 * rig.width, cy = 0.5 * rig.height;
+    info.K = {f, 0, cx, 0, f, cy, 0, 0, 1};
+    info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    info.P = {f, 0, cx, -f * camera_x_m, 0, f, cy, 0, 0, 0, 1, 0};
+    return info;
+  }
+
   ros::NodeHandle handle_;
+  ros::Publisher left_info_ = handle_.advertise<sensor_msgs::CameraInfo>("camera/left/camera_info", 2);
+  ros::Publisher right_info_ = handle_.advertise<sensor_msgs::CameraInfo>("camera/right/camera_info", 2);
   ros::Publisher left_ = handle_.advertise<sensor_msgs::Image>("camera/left/image_raw", 2);
   ros::Publisher right_ = handle_.advertise<sensor_msgs::Image>("camera/right/image_raw", 2);
   double moment_ = 0.0;
@@ -166,6 +187,58 @@ TEST_F(CalibrateLaunch, TheButtonsLeadToASavedCalibrationThatIsGood) {
   EXPECT_NE(checked.output.find("good: every figure"), std::string::npos) << checked.output;
   const CommandResult saved = checkCalibration(folder + "/calibration --calibration " + folder);
   EXPECT_EQ(saved.status, 0) << saved.output;
+}
+
+/// Publishes the board in the background.
+class RunningBoard {
+ public:
+  RunningBoard() = default;
+  ~RunningBoard() {
+    done_ = true;
+    thread_.join();
+  }
+
+ private:
+  BoardPublisher board_;
+  std::atomic<bool> done_{false};
+  std::thread thread_{[this] {
+    while (!done_) {
+      board_.publishNext();
+      ros::WallDuration(0.2).sleep();
+    }
+  }};
+};
+
+void expectGoodWithTrueBaseline(const CommandResult& result) {
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find("baseline 120.00 mm, focal length 417.00 px"), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("are up to 10 ms apart"), std::string::npos) << result.output;
+}
+
+TEST(CheckCalibrationLive, TopicsAreListenedToUntilThereAreEnoughViews) {
+  const RunningBoard board;
+  const CommandResult result = checkCalibration("--views 6 --interval 0.2 --size 8x6 --square 0.051");
+  expectGoodWithTrueBaseline(result);
+  EXPECT_NE(result.output.find(": 6 of "), std::string::npos) << result.output;
+}
+
+TEST(CheckCalibrationLive, ARecordingIsMeasured) {
+  const RunningBoard board;
+  fs::create_directories(folder);
+  const std::string bag = folder + "/board.bag";
+  const CommandResult recorded = runCommand("rosbag record -O " + bag +
+                                            " --duration=8 camera/left/image_raw camera/right/image_raw "
+                                            "camera/left/camera_info camera/right/camera_info");
+  ASSERT_TRUE(fs::exists(bag)) << recorded.output;
+  expectGoodWithTrueBaseline(checkCalibration(bag + " --size 8x6 --square 0.051"));
+}
+
+TEST(CheckCalibrationLive, SilenceIsNamed) {
+  const CommandResult result = checkCalibration("camera/left/image_raw:=nowhere");
+  EXPECT_EQ(result.status, 2) << result.output;
+  EXPECT_NE(result.output.find("0 images on /nowhere"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("is capture.launch running"), std::string::npos) << result.output;
 }
 
 }  // namespace

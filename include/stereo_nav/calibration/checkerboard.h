@@ -21,9 +21,9 @@ struct Checkerboard {
 
 /// Inner corners of the board in a CV_8UC1 image, in px from the centre of the upper left one, row by row in
 /// the order of Checkerboard::corners(); nothing unless all are seen and form an even grid. Found by OpenCV's
-/// detector (at twice the size if need be) and refined by cornerSubPix within 0.35 of the distance of the
-/// nearest neighbours: a window that reaches into the next square pulls the corner by up to a pixel.
-/// A board that looks the same after half a turn is taken to stand upright.
+/// detector (below 640 px of width at twice the size if need be) and refined by cornerSubPix within 0.35 of
+/// the distance of the nearest neighbours: a window that reaches into the next square pulls the corner by up
+/// to a pixel. A board that looks the same after half a turn is taken to stand upright.
 std::optional<std::vector<cv::Point2f>> findCorners(const cv::Mat& image, const Checkerboard& board);
 
 /// One view of the board by both cameras, raw pixels, equal index = equal corner.

@@ -32,7 +32,8 @@ struct ImuCameraRotationParams {
 struct ImuCameraRotation {
   Eigen::Matrix3d R_camera_imu = Eigen::Matrix3d::Identity();  ///< IMU frame -> left optical frame
   Eigen::Vector3d sigma_rad = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  ///< of small turns of R_camera_imu about the camera's axes
+  ///< of small turns of R_camera_imu about the camera's axes; what is wrong in the same way all the time
+  ///< (axes of the gyroscope that are not square, its scale, the rectification) is not in it
   double imu_offset_s = 0.0;  ///< constant error of the IMU's stamps against the images': > 0 is late
   double imu_offset_sigma_s = std::numeric_limits<double>::infinity();
   Eigen::Vector3d bias_rad_s = Eigen::Vector3d::Zero();  ///< of the IMU's rates, IMU frame
