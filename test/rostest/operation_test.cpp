@@ -49,12 +49,9 @@ TEST(Operation, AGoneMasterEndsTheNodesAndTheNextOneFindsThemAgain) {
   ASSERT_TRUE(comes("/odom")) << robot.output();
   master.crash();
   // Each of our three processes says so and ends with a status that is not 0; roslaunch starts it again.
-  for (const std::string node : {"simulator", "rig_transforms", "visual_odometry"}) {
-    EXPECT_TRUE(robot.waitForOutput("[" + node, kLongWait_s)) << node << "\n" << robot.output();
-  }
-  EXPECT_GE(robot.count("has gone: its port refuses connections"), 3) << robot.output();
-  EXPECT_GE(robot.count("has died [pid"), 3) << robot.output();
-  EXPECT_EQ(robot.count("exit code 3"), robot.count("has died [pid")) << robot.output();
+  EXPECT_TRUE(robot.waitForOutput("has died [pid", kLongWait_s, 3)) << robot.output();
+  EXPECT_EQ(robot.count("has gone: its port refuses connections"), 3) << robot.output();
+  EXPECT_EQ(robot.count("exit code 3"), 3) << robot.output();
   master.start();
   EXPECT_TRUE(comes("/odom")) << robot.output();
   robot.signal(SIGINT);
@@ -82,7 +79,6 @@ TEST(Operation, NodesStartInAnyOrder) {
                              "__name:=visual_odometry");
   ASSERT_TRUE(odometry.waitForOutput("Failed to contact master", kLongWait_s)) << odometry.output();
   master.start();
-  ASSERT_TRUE(odometry.waitForOutput("Loading nodelet", kLongWait_s)) << odometry.output();
   BackgroundCommand robot(kRobot + "odometry:=false");
   EXPECT_TRUE(comes("/odom")) << odometry.output() << robot.output();
   odometry.signal(SIGINT);

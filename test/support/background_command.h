@@ -76,9 +76,10 @@ class BackgroundCommand {
     for (auto at = all.find(text); at != std::string::npos; at = all.find(text, at + 1)) ++found;
     return found;
   }
-  bool waitForOutput(const std::string& text, double seconds) const {
+  /// Whether it has printed `text` so often within the time.
+  bool waitForOutput(const std::string& text, double seconds, int times = 1) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    while (count(text) == 0) {
+    while (count(text) < times) {
       if (std::chrono::steady_clock::now() > end) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
