@@ -86,6 +86,31 @@ TEST(Operation, NodesStartInAnyOrder) {
   EXPECT_EQ(robot.waitFor(kLongWait_s), 0) << robot.output();
 }
 
+class Rviz : public testing::TestWithParam<const char*> {};
+
+TEST_P(Rviz, ShowsAllOfTheOdometry) {
+  OwnMaster master;
+  master.start();
+  // Xvfb finds a free display itself and prints its number.
+  const BackgroundCommand screen("exec Xvfb -displayfd 1 -screen 0 1000x700x24");
+  ASSERT_TRUE(screen.waitForOutput("\n", kLongWait_s)) << "Xvfb does not start";
+  BackgroundCommand rviz("export DISPLAY=:" + std::to_string(std::atoi(screen.output().c_str())) +
+                         " LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1; " + kRos +
+                         "exec roslaunch stereo_nav visualise.launch view:=" + GetParam());
+  for (const std::string topic : {"/path", "/odom", "/vo/features", "/vo/debug_image", "/vo/disparity_view",
+                                  "/ground_truth/odom", "/tf", "/tf_static"}) {
+    bool subscribed = false;
+    for (int attempt = 0; attempt < 60 && !subscribed && !rviz.waitFor(0.5); ++attempt) {
+      subscribed = runCommand(kRos + "rostopic info " + topic).output.find("* /rviz") != std::string::npos;
+    }
+    EXPECT_TRUE(subscribed) << topic << "\n" << rviz.output();
+  }
+  rviz.signal(SIGINT);
+  EXPECT_EQ(rviz.waitFor(kLongWait_s), 0) << rviz.output();
+}
+
+INSTANTIATE_TEST_SUITE_P(BothViews, Rviz, testing::Values("robot", "offline"));
+
 /// What rig_transforms says of a rig file, and its exit status.
 CommandResult checkRig(const std::string& text) {
   const auto path = std::filesystem::temp_directory_path() / "stereo_nav_operation_test_rig.yaml";
