@@ -70,7 +70,8 @@ Eigen::Isometry3d Mounting::T_base_optical() const {
 
 YAML::Node loadRigSection(const std::string& path, const std::string& section) {
   const YAML::Node rig = loadYamlFile(path);
-  if (!rig.IsMap()) throw ParameterError(path + ": a rig file holds sections, e.g. `mounting:`; this one none");
+  if (!rig.IsMap())
+    throw ParameterError(path + ": a rig file holds sections, e.g. `mounting:`; this one none");
   refuseUnknownSections(rig, path);
   const YAML::Node found = rig[section];
   return found.IsDefined() ? found : YAML::Node();

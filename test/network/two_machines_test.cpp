@@ -235,6 +235,7 @@ TEST_F(TwoMachines, OdometryOnTheRobotIsUndisturbedAndItsPicturesResumeOnTheBase
   arrivals.listen<VoStatus>("vo/status");
   arrivals.listen<sensor_msgs::PointCloud2>("vo/features");
   arrivals.listen<sensor_msgs::Image>("vo/debug_image");
+  arrivals.listen<sensor_msgs::Image>("vo/disparity_view");
   ASSERT_NO_FATAL_FAILURE(cutTheLink(arrivals));
 
   const auto pairs = onRobot<StereoSync>("/camera/sync");

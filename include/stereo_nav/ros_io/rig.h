@@ -42,8 +42,8 @@ constexpr const char* kMounting = "mounting";    ///< Mounting
 constexpr const char* kDisparity = "disparity";  ///< DisparityParams
 }  // namespace rig_sections
 
-/// One section of a rig file; an empty node where the file has none. Throws ParameterError when the file cannot
-/// be read, is no map, or holds a section that nobody knows.
+/// One section of a rig file; an empty node where the file has none. Throws ParameterError when the file
+/// cannot be read, is no map, or holds a section that nobody knows.
 YAML::Node loadRigSection(const std::string& path, const std::string& section);
 
 /// What messages call a section of a rig file.
