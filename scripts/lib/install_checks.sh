@@ -36,13 +36,13 @@ as_user() (
 
 install_package() { cmake --install "${work_dir%/*}" --prefix "$prefix"; }
 
-# Quick to compile rather than quick to run.
+# Quick to compile rather than quick to run; without catkin_make's habit of waiting until the computer is idle.
 catkin_make_install() {
   ln -sfn "$STEREO_NAV_ROOT" "$workspace/src/stereo_nav"
   ln -sfn "$STEREO_NAV_ROOT/test/external_package" "$workspace/src/stereo_nav_user"
   local launcher=""
   command -v ccache >/dev/null && launcher=ccache
-  catkin_make install -C "$workspace" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=None \
+  catkin_make install -C "$workspace" -j "$(nproc)" -l 1000 -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=None \
     -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"
 }
 
