@@ -29,7 +29,7 @@ def prepare(root, build, work):
     (work / 'build').symlink_to(build)
     (work / 'home').mkdir()
     shutil.copy(root / 'config' / 'rigs' / 'thesis.yaml', work / 'home' / 'my_rig.yaml')
-    shutil.copy(root / 'bags' / 'arena_start.bag', work / 'drive.bag')
+    (work / 'drive.bag').symlink_to(build / 'fixture' / 'room.bag')
     tuning = (root / 'docs' / 'tuning.md').read_text()
     (work / 'my_vo.yaml').write_text(re.search(r'```yaml\n(.*?)```', tuning, re.DOTALL).group(1))
 
