@@ -30,7 +30,7 @@ capture::CaptureParams readParams(const ros::NodeHandle& private_handle) {
   return params;
 }
 
-/// The map `controls` of both cameras and then that of this one.
+/// The map `controls` of both cameras and then that of this one, which wins.
 std::vector<capture::ControlSetting> readControls(const ros::NodeHandle& private_handle,
                                                   const std::string& side) {
   std::vector<capture::ControlSetting> settings;
@@ -42,7 +42,8 @@ std::vector<capture::ControlSetting> readControls(const ros::NodeHandle& private
         // true and false are how YAML writes many switches.
         const auto value = entry.second.as<std::string>();
         const bool is_bool = value == "true" || value == "false";
-        settings.push_back({control, is_bool ? static_cast<int>(value == "true") : entry.second.as<int>()});
+        capture::setIn(settings,
+                       {control, is_bool ? static_cast<int>(value == "true") : entry.second.as<int>()});
       } catch (const YAML::Exception&) {
         throw ParameterError("~" + name + "/" + control + " must be a whole number, true or false");
       }
