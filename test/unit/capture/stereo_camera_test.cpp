@@ -222,6 +222,21 @@ TEST_F(StereoCameraTest, ASlowReceiverGetsTheNewestPairsAndLossIsCounted) {
   EXPECT_GT(frames_between, 2 * (pairs.size() - 1));
 }
 
+/// The left camera loses every other frame, so that right's frames wait for one that does not come: each
+/// camera completes every other pair, while the receiver has an earlier one.
+TEST_F(StereoCameraTest, PairsThatBothCamerasCompleteComeOneByOneInOrder) {
+  kernel_.change(0, [](FakeCamera& camera) { camera.lose_every = 2; });
+  kernel_.change(1, [](FakeCamera& camera) { camera.offset_ns = 2'500'000; });
+  auto waiting = config();
+  waiting.max_skew_s = 0.003;
+  start(waiting, milliseconds(15));
+  ASSERT_TRUE(rig_->pairsCome(40));
+  const auto pairs = rig_->stop();
+  expectOrdered(pairs);
+  const auto status = rig_->camera().status();
+  EXPECT_EQ(status.pairing.pairs, pairs.size() + status.delivered_late);
+}
+
 TEST_F(StereoCameraTest, MeasuresTheSlideOfCamerasWhoseRateIsNotTheOneAskedFor) {
   const auto withPeriod = [](std::int64_t period_ns) {
     return [period_ns](FakeCamera& camera) { camera.period_ns = period_ns; };
