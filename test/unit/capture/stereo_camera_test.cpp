@@ -222,11 +222,14 @@ TEST_F(StereoCameraTest, ASlowReceiverGetsTheNewestPairsAndLossIsCounted) {
   EXPECT_GT(frames_between, 2 * (pairs.size() - 1));
 }
 
-/// The left camera loses every other frame, so that right's frames wait for one that does not come: each
-/// camera completes every other pair, while the receiver has an earlier one.
+/// Where both cameras lost a frame, a pair waits until the next right frame shows that no nearer left one
+/// comes; that frame's own partner follows 1.5 ms later, while the receiver still has the first pair.
 TEST_F(StereoCameraTest, PairsThatBothCamerasCompleteComeOneByOneInOrder) {
   kernel_.change(0, [](FakeCamera& camera) { camera.lose_every = 2; });
-  kernel_.change(1, [](FakeCamera& camera) { camera.offset_ns = 2'500'000; });
+  kernel_.change(1, [](FakeCamera& camera) {
+    camera.lose_every = 3;
+    camera.offset_ns = 2'500'000;
+  });
   auto waiting = config();
   waiting.max_skew_s = 0.003;
   start(waiting, milliseconds(15));
