@@ -117,13 +117,14 @@ class Vivid : public testing::Test {
     std::set<std::int64_t> paired_us;
     for (const auto& images : pairs) paired_us.insert(images.pair.left.stamp_ns / 1000);
     const Buffers lefts = kernel_.buffersOf(kLeft), rights = kernel_.buffersOf(kRight);
-    return static_cast<std::size_t>(std::count_if(lefts.begin(), lefts.end(), [&](const auto& left) {
+    const auto missed = [&](const RecordingKernel::Buffer& left) {
       if (left.stamp_us < *paired_us.begin() || left.stamp_us > *paired_us.rbegin()) return false;
       const std::int64_t right_us = nearest(rights, left.stamp_us);
       const bool neighbours =
           std::abs(right_us - left.stamp_us) <= kWellWithin_us && nearest(lefts, right_us) == left.stamp_us;
       return neighbours && paired_us.count(left.stamp_us) == 0;
-    }));
+    };
+    return static_cast<std::size_t>(std::count_if(lefts.begin(), lefts.end(), missed));
   }
 
   /// Numbers that the driver left out. A vivid that a busy host kept from running gives one number twice.
