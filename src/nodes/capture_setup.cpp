@@ -16,7 +16,8 @@ void addControls(const YAML::Node& map, const std::string& source,
       // true and false are how YAML writes many switches.
       const auto value = entry.second.as<std::string>();
       const bool is_bool = value == "true" || value == "false";
-      settings.push_back({control, is_bool ? static_cast<int>(value == "true") : entry.second.as<int>()});
+      capture::setIn(settings,
+                     {control, is_bool ? static_cast<int>(value == "true") : entry.second.as<int>()});
     } catch (const YAML::Exception&) {
       throw ParameterError(source + "." + control + " must be a whole number, true or false");
     }

@@ -38,6 +38,10 @@ struct ImageLayout {
   std::size_t bytes_per_line = 0;  ///< 0 for compressed formats
 };
 
+/// Gives `image` the memory that decoding this layout takes, ahead of the image: a megabyte fresh from the
+/// system costs as much as a tenth of decoding a JPEG into it.
+void allocate(const ImageLayout& layout, Encoding encoding, DecodedImage& image);
+
 /// Decodes one image. Returns an empty text, or what is wrong with the data (then `image` is not to be used).
 /// A JPEG must have the layout's size and be complete; bytes between its markers are let pass, since many
 /// webcams fill up with them. A JPEG without Huffman tables (usual for MJPG) gets the standard ones.
