@@ -191,6 +191,20 @@ TEST_F(StereoOdometryTest, EqualInputGivesEqualOutput) {
   EXPECT_EQ(drive(other, frames).T_start_camera.matrix(), result.T_start_camera.matrix());
 }
 
+TEST_F(StereoOdometryTest, GivesTheSameOnAnyNumberOfThreads) {
+  const int threads_before = cv::getNumThreads();
+  const auto frames = course(0.02);
+  cv::setNumThreads(1);
+  StereoOdometry alone = odometry();
+  const FrameResult result = drive(alone, frames);
+  for (const int threads : {2, 4}) {
+    cv::setNumThreads(threads);
+    StereoOdometry many = odometry();
+    EXPECT_EQ(drive(many, frames).T_start_camera.matrix(), result.T_start_camera.matrix()) << threads;
+  }
+  cv::setNumThreads(threads_before);
+}
+
 TEST_F(StereoOdometryTest, AWrongBiasOfTheRatesDoesNotTurnIt) {
   StereoOdometry vo = odometry();
   FrameResult result;
