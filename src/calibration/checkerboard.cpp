@@ -70,36 +70,6 @@ bool isEven(const Corners& corners, const Checkerboard& board) {
   return true;
 }
 
-/// Whether the four squares around each corner are dark and bright by turns. Where a board is partly out of
-/// view, the detector may take the outer corners of the squares at its other edge for inner ones.
-bool isSurroundedBySquares(const cv::Mat& image, const Corners& corners, const Checkerboard& board) {
-  cv::Mat smooth;
-  cv::blur(image, smooth, cv::Size(3, 3));
-  const auto greyAt = [&](const cv::Point2f& pixel) {
-    const int x = std::clamp(cvRound(pixel.x), 0, smooth.cols - 1),
-              y = std::clamp(cvRound(pixel.y), 0, smooth.rows - 1);
-    return smooth.at<unsigned char>(y, x);
-  };
-  bool first_is_dark = false;
-  for (int row = 0; row < board.rows; ++row) {
-    for (int column = 0; column < board.columns; ++column) {
-      const cv::Point2f& corner = corners[indexOf(board, row, column)];
-      const int next_column = column + 1 < board.columns ? 1 : -1, next_row = row + 1 < board.rows ? 1 : -1;
-      const auto neighbour_x = corners[indexOf(board, row, column + next_column)];
-      const auto neighbour_y = corners[indexOf(board, row + next_row, column)];
-      const cv::Point2f u = 0.4f * static_cast<float>(next_column) * (neighbour_x - corner);
-      const cv::Point2f v = 0.4f * static_cast<float>(next_row) * (neighbour_y - corner);
-      const auto [low, high] = std::minmax({greyAt(corner - u - v), greyAt(corner + u + v)});
-      const auto [other_low, other_high] = std::minmax({greyAt(corner + u - v), greyAt(corner - u + v)});
-      if (high >= other_low && other_high >= low) return false;
-      const bool dark = (high < other_low) == ((row + column) % 2 == 0);
-      if (row + column == 0) first_is_dark = dark;
-      if (dark != first_is_dark) return false;
-    }
-  }
-  return true;
-}
-
 /// The detector may begin at any corner of the board: rows to the right, columns downwards, not mirrored.
 void standUpright(Corners& corners, const Checkerboard& board) {
   if (alongRow(corners, board).cross(alongColumn(corners, board)) < 0.0) {
@@ -144,7 +114,7 @@ std::optional<Corners> findCorners(const cv::Mat& image, const Checkerboard& boa
     const int window = std::clamp(static_cast<int>(0.35 * nearestNeighbours_px(*corners, board)), 2, 11);
     cv::cornerSubPix(image, *corners, cv::Size(window, window), cv::Size(-1, -1),
                      {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 0.001});
-    if (!isEven(*corners, board) || !isSurroundedBySquares(image, *corners, board)) continue;
+    if (!isEven(*corners, board)) continue;
     standUpright(*corners, board);
     return corners;
   }

@@ -20,8 +20,7 @@ struct Checkerboard {
 };
 
 /// Inner corners of the board in a CV_8UC1 image, in px from the centre of the upper left one, row by row in
-/// the order of Checkerboard::corners(); nothing unless all are seen, form an even
-/// grid and have dark and bright squares around them. Found by OpenCV's
+/// the order of Checkerboard::corners(); nothing unless all are seen and form an even grid. Found by OpenCV's
 /// detector (below 640 px of width at twice the size if need be) and refined by cornerSubPix within 0.35 of
 /// the distance of the nearest neighbours: a window that reaches into the next square pulls the corner by up
 /// to a pixel. A board that looks the same after half a turn is taken to stand upright.

@@ -62,14 +62,12 @@ TEST_P(CheckerboardTest, BothImagesHaveOneOrderWhateverTheRoll) {
   }
 }
 
-/// The detector itself takes outer corners for inner ones where a column is cut off.
 TEST_P(CheckerboardTest, ABoardThatIsPartlyOutOfViewIsNotFoundAmiss) {
   const auto view = test::boardAt(0.0, 0.0, 0.8, -15, 10, 3);
   int cut_off = 0;
   for (int step = 0; step < 12; ++step) {
     Eigen::Isometry3d pose = view;
-    pose.translation().x() =
-        0.2 + 0.02 * (step / 2) * (step % 2 == 0 ? 1.0 : -1.0) - (step % 2 == 0 ? 0.0 : 0.4);
+    pose.translation().x() = (step % 2 == 0 ? 1.0 : -1.0) * (0.26 + 0.025 * (step / 2));
     const auto pair = scene_.draw(pose, 1);
     const auto corners = findCorners(pair.left, board_);
     if (!corners) {
