@@ -36,7 +36,8 @@ class Listener {
     if (!left_image_) return std::nullopt;
     char name[40];
     std::snprintf(name, sizeof name, "%.3f", left_image_->header.stamp.toSec());
-    ImagePair pair{name, ros_io::toMono8(left_image_), ros_io::toMono8(right_image_),
+    // Copies: grey images share their pixels with the messages, which the next pair replaces.
+    ImagePair pair{name, ros_io::toMono8(left_image_).clone(), ros_io::toMono8(right_image_).clone(),
                    (right_image_->header.stamp - left_image_->header.stamp).toSec()};
     left_image_.reset();
     return pair;

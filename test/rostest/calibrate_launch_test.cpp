@@ -157,7 +157,8 @@ TEST_F(CalibrateLaunch, TheButtonsLeadToASavedCalibrationThatIsGood) {
   BoardPublisher board;
   NodeProcess launched({"/usr/bin/env", "roslaunch", "stereo_nav", "calibrate.launch",
                         "left:=/dev/v4l/by-path/no-left-camera", "right:=/dev/v4l/by-path/no-right-camera",
-                        "config:=" + config, "left_calibration:=file://" + folder + "/left.yaml",
+                        "square:=0.051", "config:=" + config,
+                        "left_calibration:=file://" + folder + "/left.yaml",
                         "right_calibration:=file://" + folder + "/right.yaml"});
   for (const std::string side : {"left", "right"}) {
     EXPECT_TRUE(ros::service::waitForService("camera/" + side + "/set_camera_info", ros::Duration(60)));
