@@ -20,6 +20,7 @@ struct FrameRecord {
   FrameTiming timing;
 };
 
+/// All that the errors of a run are computed from.
 struct EvaluationInput {
   std::string input;                ///< as named on the command line; goes into the summary
   std::string config;               ///< likewise
@@ -70,6 +71,7 @@ struct FrameErrors {
   double rotation_error_deg = EvaluationSummary::kUnknown;  ///< first poses laid together
 };
 
+/// The errors of a run, as a whole and frame by frame.
 struct Evaluation {
   EvaluationSummary summary;
   std::vector<FrameErrors> frames;
