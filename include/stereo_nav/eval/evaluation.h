@@ -91,4 +91,8 @@ Trajectory cameraTrajectory(const EvaluationInput& input);
 /// double.
 std::string toJson(const EvaluationSummary& summary);
 
+/// Text of frames.csv: a line of names, then one line for each frame with the fields of FrameErrors; what is
+/// not known is left empty.
+std::string toCsv(const std::vector<FrameErrors>& frames);
+
 }  // namespace stereo_nav::eval
