@@ -14,6 +14,7 @@
 
 #include "rostest/graph_probe.h"
 #include "stereo_nav/StereoSync.h"
+#include "stereo_nav/ros_io/rig.h"
 #include "stereo_nav/sim/simulation.h"
 #include "support/command.h"
 
@@ -78,13 +79,12 @@ class KeyMarker {
 
 /// Distance along the view to what is at kPixel of the rectified left image, from the start.
 double trueDepth() {
-  const sim::Simulation simulation(sim::loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/arena.yaml"),
-                                   sim::loadStereoCalibration(STEREO_NAV_SOURCE_DIR "/config/thesis"), 1);
-  const sim::Scene scene(simulation.scenario().scene);
-  const auto& P = simulation.calibration(sim::Side::kLeft).P;
-  const Eigen::Isometry3d T = simulation.trajectory().pose(0.0) * simulation.scenario().rig.T_base_camera();
+  const sim::Scenario scenario = sim::loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/arena.yaml");
+  const Eigen::Isometry3d T_base_camera =
+      ros_io::loadMounting(STEREO_NAV_SOURCE_DIR "/config/rigs/thesis.yaml").T_base_optical();
+  const auto& P = sim::loadStereoCalibration(STEREO_NAV_SOURCE_DIR "/config/thesis").left.P;
   const Eigen::Vector3d ray((kPixel.x - P(0, 2)) / P(0, 0), (kPixel.y - P(1, 2)) / P(1, 1), 1.0);
-  return scene.castRay(T.translation(), T.linear() * ray, 0.0);
+  return sim::Scene(scenario.scene).castRay(T_base_camera.translation(), T_base_camera.linear() * ray, 0.0);
 }
 
 /// The distances that `depth_at --each` printed for stamps before `end_s`.
