@@ -1,5 +1,7 @@
 #include "stereo_nav/capture/camera_worker.h"
 
+#include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace stereo_nav::capture {
@@ -8,6 +10,7 @@ namespace {
 constexpr int kPoll_ms = 100;
 constexpr std::int64_t kExposureInterval_ns = 500'000'000;
 constexpr std::int64_t kLogInterval_ns = 10'000'000'000;
+constexpr double kRateTolerance = 0.02;  // 30 Hz may be 30000/1001
 
 }  // namespace
 
@@ -89,6 +92,7 @@ void CameraWorker::openAndStream() {
   sequence_.restart();
   rate_.restart();
   next_exposure_reading_ns_ = 0;
+  automatic_exposure_.reset();
   stream(device);
 }
 
@@ -97,6 +101,7 @@ void CameraWorker::stream(V4l2Device& device) {
   const auto stall_ns = static_cast<std::int64_t>(config_.stall_timeout_s * 1e9);
   while (sleepUnlessStopped(Backoff::Duration(0))) {
     applyPendingControls(device);
+    allocate(format_.layout, config_.encoding, prepared_);
     if (!device.wait(kPoll_ms)) {
       if (kernel_.monotonicNow() - latest_ns < stall_ns) continue;
       update([](CameraStatus& status) { ++status.stalls; });
@@ -108,7 +113,7 @@ void CameraWorker::stream(V4l2Device& device) {
     }
     latest_ns = kernel_.monotonicNow();
     const auto newest = takeNewest(device);
-    if (newest) deliver(device, *newest, latest_ns);
+    if (newest) deliver(device, *newest);
     if (latest_ns >= next_exposure_reading_ns_) {
       next_exposure_reading_ns_ = latest_ns + kExposureInterval_ns;
       readExposure(device);
@@ -120,41 +125,43 @@ std::optional<LentBuffer> CameraWorker::takeNewest(V4l2Device& device) {
   std::optional<LentBuffer> newest;
   while (auto buffer = device.dequeue()) {
     sequence_.add(buffer->sequence);
-    rate_.add(kernel_.monotonicNow());
-    std::optional<LentBuffer> unused = buffer;
+    rate_.add(buffer->dequeued_ns);
     const bool broken = buffer->isBroken();
-    if (!broken) std::swap(unused, newest);
-    if (unused) device.giveBack(*unused);
-    if (!broken) newest = buffer;
+    const bool overtakes = !broken && newest;
+    if (!broken) std::swap(buffer, newest);
+    if (buffer) device.giveBack(*buffer);
     update([&](CameraStatus& status) {
       status.lost = sequence_.lost();
       status.flagged_broken += broken ? 1 : 0;
-      status.skipped += !broken && unused ? 1 : 0;
+      status.skipped += overtakes ? 1 : 0;
       status.rate_hz = rate_.get_hz(kernel_.monotonicNow());
     });
   }
   return newest;
 }
 
-void CameraWorker::deliver(V4l2Device& device, const LentBuffer& buffer, std::int64_t dequeued_ns) {
-  Frame frame;
-  const std::string problem = decode(buffer.data, buffer.size, format_.layout, config_.encoding, frame.image);
+void CameraWorker::deliver(V4l2Device& device, const LentBuffer& buffer) {
+  const std::int64_t start_ns = kernel_.monotonicNow();
+  const std::string problem = decode(buffer.data, buffer.size, format_.layout, config_.encoding, prepared_);
+  const std::int64_t decoding_ns = kernel_.monotonicNow() - start_ns;
   device.giveBack(buffer);
   if (!problem.empty()) {
-    noteUndecodable(problem, dequeued_ns);
+    noteUndecodable(problem, buffer.dequeued_ns);
     return;
   }
-  frame.dequeued_ns = dequeued_ns;
-  frame.stamp_ns = clock_.monotonicStamp(buffer, dequeued_ns);
+  Frame frame;
+  frame.image = std::exchange(prepared_, {});
+  frame.dequeued_ns = buffer.dequeued_ns;
+  frame.decoding_ns = decoding_ns;
+  frame.stamp_ns = clock_.monotonicStamp(buffer);
   frame.time_ns = middleOfExposure(frame.stamp_ns, buffer.flags, exposure_s_);
   frame.sequence = buffer.sequence;
   frame.lost = sequence_.lost();
   if (exposure_s_) frame.exposure_s = *exposure_s_;
   if (!frames_flow_) noteFirstFrame();
-  const double decode_time_s = 1e-9 * static_cast<double>(kernel_.monotonicNow() - dequeued_ns);
   update([&](CameraStatus& status) {
     ++status.frames;
-    status.decode_time_s = decode_time_s;
+    status.decode_time_s = 1e-9 * static_cast<double>(decoding_ns);
   });
   on_frame_(std::move(frame));
 }
@@ -197,7 +204,18 @@ void CameraWorker::noteFirstFrame() {
   });
   log_(Severity::Info, config_.name + " camera: images from " + seen_before_->card + ", " +
                            seen_before_->path + (again ? " again" : ""));
+  if (!again) warnOfAnotherRate();
   on_start_();
+}
+
+void CameraWorker::warnOfAnotherRate() {
+  const double wanted_hz = config_.format.rate_hz;
+  if (format_.rate_hz <= 0.0 || std::abs(format_.rate_hz - wanted_hz) < kRateTolerance * wanted_hz) return;
+  std::ostringstream text;
+  text << config_.name << " camera: runs at " << format_.rate_hz << " Hz instead of " << wanted_hz << ": in "
+       << fourccText(fourccOf(format_.layout.format)) << " " << format_.layout.width << "x"
+       << format_.layout.height << " it has no such rate; `rosrun stereo_nav list_cameras` shows which";
+  log_(Severity::Warning, text.str());
 }
 
 bool CameraWorker::sleepUnlessStopped(Backoff::Duration duration) {

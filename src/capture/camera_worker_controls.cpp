@@ -1,7 +1,6 @@
 // What CameraWorker does with the camera's controls.
 #include <linux/videodev2.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <string>
 #include <vector>
@@ -19,30 +18,17 @@ std::optional<std::int32_t> readIfPresent(V4l2Device& device, const std::string&
   return device.getControl(*control);
 }
 
-/// In automatic modes many cameras report the last manual exposure; only a control marked as changing by
-/// itself is believed then.
-bool exposureIsTold(V4l2Device& device) {
-  const Control* exposure = findControl(device.controls(), "exposure_time_absolute");
-  if (exposure == nullptr) return false;
+bool exposureIsManual(V4l2Device& device) {
   const auto mode = readIfPresent(device, "auto_exposure");
-  const bool manual = !mode || *mode == V4L2_EXPOSURE_MANUAL || *mode == V4L2_EXPOSURE_SHUTTER_PRIORITY;
-  return manual || (exposure->flags & V4L2_CTRL_FLAG_VOLATILE) != 0;
+  return !mode || *mode == V4L2_EXPOSURE_MANUAL || *mode == V4L2_EXPOSURE_SHUTTER_PRIORITY;
 }
 
 }  // namespace
 
 void CameraWorker::setControl(const std::string& name, std::int32_t value) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (auto* list : {&wanted_controls_, &pending_controls_}) {
-    const auto found = std::find_if(list->begin(), list->end(), [&name](const ControlSetting& setting) {
-      return sameControl(setting.name, name);
-    });
-    if (found != list->end()) {
-      found->value = value;
-    } else {
-      list->push_back({name, value});
-    }
-  }
+  setIn(wanted_controls_, {name, value});
+  setIn(pending_controls_, {name, value});
 }
 
 void CameraWorker::applyControls(V4l2Device& device, const std::vector<ControlSetting>& settings) {
@@ -80,16 +66,33 @@ void CameraWorker::applyPendingControls(V4l2Device& device) {
   if (pending.empty()) return;
   applyControls(device, pending);
   next_exposure_reading_ns_ = 0;
+  automatic_exposure_.reset();  // what changes now does not change by itself
+}
+
+/// Whether `exposure` is the one in use. In automatic modes many cameras report the last manual one; only a
+/// control that is marked as changing by itself, or was seen to, is believed then.
+bool CameraWorker::exposureIsTold(V4l2Device& device, std::int32_t exposure) {
+  if (exposureIsManual(device)) {
+    automatic_exposure_.reset();
+    return true;
+  }
+  if (automatic_exposure_ && *automatic_exposure_ != exposure) exposure_changes_by_itself_ = true;
+  automatic_exposure_ = exposure;
+  const Control* control = findControl(device.controls(), "exposure_time_absolute");
+  return exposure_changes_by_itself_ || (control->flags & V4L2_CTRL_FLAG_VOLATILE) != 0;
 }
 
 void CameraWorker::readExposure(V4l2Device& device) {
-  const auto exposure = readIfPresent(device, "exposure_time_absolute");
-  const auto gain = readIfPresent(device, "gain");
+  auto exposure = readIfPresent(device, "exposure_time_absolute");
+  auto gain = readIfPresent(device, "gain");
+  const bool untold = exposure && !exposureIsTold(device, *exposure);
+  if (untold) exposure = gain = std::nullopt;
   exposure_s_.reset();
-  if (exposure && exposureIsTold(device)) exposure_s_ = *exposure * kExposureUnit_s;
+  if (exposure) exposure_s_ = *exposure * kExposureUnit_s;
   update([&](CameraStatus& status) {
     status.exposure = exposure;
     status.gain = gain;
+    status.exposure_untold = untold;
   });
 }
 

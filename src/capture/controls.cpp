@@ -63,9 +63,16 @@ std::vector<ControlSetting> inOrderOfSetting(std::vector<ControlSetting> setting
   return settings;
 }
 
-bool sameControl(const std::string& a, const std::string& b) {
-  const auto aliases = controlAliases(a);
-  return std::find(aliases.begin(), aliases.end(), b) != aliases.end();
+void setIn(std::vector<ControlSetting>& settings, const ControlSetting& setting) {
+  const auto names = controlAliases(setting.name);
+  const auto known = std::find_if(settings.begin(), settings.end(), [&names](const ControlSetting& other) {
+    return std::find(names.begin(), names.end(), other.name) != names.end();
+  });
+  if (known == settings.end()) {
+    settings.push_back(setting);
+  } else {
+    *known = setting;
+  }
 }
 
 }  // namespace stereo_nav::capture

@@ -39,6 +39,13 @@ cv::Mat DecodedImage::view() {
   return {height, width, encoding == Encoding::Mono8 ? CV_8UC1 : CV_8UC3, pixels.data(), step()};
 }
 
+void allocate(const ImageLayout& layout, Encoding encoding, DecodedImage& image) {
+  image.width = layout.width;
+  image.height = layout.height;
+  image.encoding = encoding;
+  image.pixels.resize(image.step() * static_cast<std::size_t>(image.height));
+}
+
 std::string decode(const std::uint8_t* data, std::size_t size, const ImageLayout& layout, Encoding encoding,
                    DecodedImage& image) {
   if (layout.format == PixelFormat::Mjpg) return internal::decodeJpeg(data, size, layout, encoding, image);
@@ -48,10 +55,7 @@ std::string decode(const std::uint8_t* data, std::size_t size, const ImageLayout
     return "incomplete image: " + std::to_string(size) + " of " + std::to_string(needed) + " bytes";
   }
 
-  image.width = layout.width;
-  image.height = layout.height;
-  image.encoding = encoding;
-  image.pixels.resize(image.step() * static_cast<std::size_t>(image.height));
+  allocate(layout, encoding, image);
   const cv::Mat source = driverView(data, layout);
   cv::Mat target = image.view();
   const bool has_grey_plane = layout.format == PixelFormat::Grey || layout.format == PixelFormat::Nv12;

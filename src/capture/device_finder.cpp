@@ -24,6 +24,13 @@ int videoNumber(const std::string& name) {
   return number ? std::atoi(name.c_str() + kPrefix.size()) : -1;
 }
 
+/// A camera that is there but cannot be opened, e.g. for want of permission, may be the one that is missed.
+std::string refusalsText(const std::vector<std::string>& refused) {
+  std::string text;
+  for (const auto& reason : refused) text += (text.empty() ? ". It may be one of these: " : "; ") + reason;
+  return text;
+}
+
 int readNumber(const fs::path& path) {
   int value = 0;
   std::ifstream(path) >> value;
@@ -72,29 +79,28 @@ FoundDevice DeviceFinder::find(const std::string& name) const {
     const auto real = fs::canonical(name, none);
     return describe(none ? name : real.string());
   }
+  std::vector<std::string> refused;
   std::string connected;
-  for (auto& device : list()) {
+  for (auto& device : list(&refused)) {
     if (device.bus_info == name) return device;
     connected += (connected.empty() ? "" : ", ") + device.bus_info;
   }
   throw CaptureError(Step::Find, ENOENT,
                      name +
                          ": no camera at this port (connected: " + (connected.empty() ? "none" : connected) +
-                         "); plug it in there, or give another name: `rosrun stereo_nav list_cameras`");
+                         "); plug it in there, or give another name: `rosrun stereo_nav list_cameras`" +
+                         refusalsText(refused));
 }
 
 FoundDevice DeviceFinder::findAgain(const FoundDevice& seen_before) const {
-  for (auto& device : list()) {
+  std::vector<std::string> refused;
+  for (auto& device : list(&refused)) {
     if (device.bus_info == seen_before.bus_info && device.index == seen_before.index) return device;
-  }
-  // A camera that is back but cannot be opened, e.g. for want of permission, says so itself.
-  const auto paths = nodes();
-  if (std::find(paths.begin(), paths.end(), seen_before.path) != paths.end()) {
-    const V4l2Device opened(kernel_, seen_before.path);
   }
   throw CaptureError(Step::Find, ENOENT,
                      seen_before.card + " (was " + seen_before.path + ") is no longer at port " +
-                         seen_before.bus_info + "; plug it in there again, or restart with its new name");
+                         seen_before.bus_info + "; plug it in there again, or restart with its new name" +
+                         refusalsText(refused));
 }
 
 FoundDevice DeviceFinder::describe(const std::string& path) const {

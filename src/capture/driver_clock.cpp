@@ -13,24 +13,24 @@ constexpr std::int64_t kClose_ns = 10'000'000'000;
 
 }  // namespace
 
-std::int64_t DriverClock::monotonicStamp(const LentBuffer& buffer, std::int64_t dequeued_ns) {
-  if (!kind_) recognise(buffer, dequeued_ns);
+std::int64_t DriverClock::monotonicStamp(const LentBuffer& buffer) {
+  if (!kind_) recognise(buffer);
   switch (*kind_) {
     case Kind::Monotonic:
       return buffer.stamp_ns;
     case Kind::RealTime:
       return buffer.stamp_ns - (kernel_.realtimeNow() - kernel_.monotonicNow());
     case Kind::Unusable:
-      return dequeued_ns;
+      return buffer.dequeued_ns;
   }
-  return dequeued_ns;
+  return buffer.dequeued_ns;
 }
 
-void DriverClock::recognise(const LentBuffer& buffer, std::int64_t dequeued_ns) {
+void DriverClock::recognise(const LentBuffer& buffer) {
   warning_.clear();
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
     kind_ = Kind::Monotonic;
-  } else if (std::abs(buffer.stamp_ns - dequeued_ns) < kClose_ns) {
+  } else if (std::abs(buffer.stamp_ns - buffer.dequeued_ns) < kClose_ns) {
     kind_ = Kind::Monotonic;
     warning_ =
         "the driver does not say of which clock its time stamps are; they look monotonic and are used so";

@@ -59,11 +59,7 @@ bool decompress(jpeg_decompress_struct& jpeg, ErrorManager& errors, const std::u
 
 std::string decodeJpeg(const std::uint8_t* data, std::size_t size, const ImageLayout& layout,
                        Encoding encoding, DecodedImage& image) {
-  image.width = layout.width;
-  image.height = layout.height;
-  image.encoding = encoding;
-  image.pixels.resize(image.step() * static_cast<std::size_t>(image.height));
-
+  allocate(layout, encoding, image);
   jpeg_decompress_struct jpeg{};
   ErrorManager errors{};
   jpeg.err = jpeg_std_error(&errors.base);

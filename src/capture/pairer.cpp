@@ -9,13 +9,16 @@ namespace stereo_nav::capture {
 namespace {
 
 constexpr std::size_t kMostIntervals = 15;
+/// Frames; a counter that jumps further, or does not move, does not count frames.
+constexpr std::uint32_t kLongestGap = 1000;
 /// Frames of one camera that wait for the other one. When the other one stalls, the oldest goes.
 constexpr std::size_t kMostWaiting = 4;
 
 }  // namespace
 
-void FramePeriod::add(std::int64_t interval_ns) {
-  latest_.push_back(interval_ns);
+void FramePeriod::add(std::int64_t interval_ns, std::uint32_t frames) {
+  const bool counter_runs = frames >= 1 && frames < kLongestGap;
+  latest_.push_back(counter_runs ? interval_ns / frames : interval_ns);
   if (latest_.size() > kMostIntervals) latest_.pop_front();
 }
 
@@ -38,9 +41,10 @@ std::optional<FramePair> Pairer::push(Side side, Frame frame) {
       ++counts_.out_of_order[static_cast<std::size_t>(side)];
       return std::nullopt;
     }
-    own.period.add(frame.time_ns - *own.latest_ns);
+    own.period.add(frame.time_ns - *own.latest_ns, frame.sequence - own.latest_sequence);
   }
   own.latest_ns = frame.time_ns;
+  own.latest_sequence = frame.sequence;
   own.frames.push_back(std::move(frame));
 
   // A frame can complete one pair only: every pair needs a new frame of each side, and before this call none

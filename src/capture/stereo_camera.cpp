@@ -20,9 +20,9 @@ StereoCamera::StereoCamera(const StereoConfig& config, Kernel& kernel, const Dev
                            PairSink on_pair, Log log)
     : kernel_(kernel),
       match_exposure_(config.match_exposure),
-      nominal_period_ns_(nanoseconds(1.0 / config.left.format.rate_hz)),
       on_pair_(std::move(on_pair)),
-      pairer_(nominal_period_ns_, nanoseconds(config.max_skew_s)),
+      log_(log),
+      pairer_(nanoseconds(1.0 / config.left.format.rate_hz), nanoseconds(config.max_skew_s)),
       left_(
           config.left, kernel, finder, [this](Frame frame) { take(Side::Left, std::move(frame)); },
           [this] { cameraStarted(Side::Left); }, log),
@@ -35,7 +35,6 @@ StereoCamera::~StereoCamera() {
 }
 
 void StereoCamera::start() {
-  delivery_ = std::thread([this] { deliverPairs(); });
   left_.start();
   right_.start();
 }
@@ -43,12 +42,6 @@ void StereoCamera::start() {
 void StereoCamera::stop() {
   left_.stop();
   right_.stop();
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    stopping_ = true;
-  }
-  pair_ready_.notify_all();
-  if (delivery_.joinable()) delivery_.join();
 }
 
 void StereoCamera::setMaxSkew(double max_skew_s) {
@@ -62,25 +55,27 @@ void StereoCamera::cameraStarted(Side side) {
 }
 
 void StereoCamera::take(Side side, Frame frame) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  std::unique_lock<std::mutex> lock(mutex_);
   auto pair = pairer_.push(side, std::move(frame));
   if (!pair) return;
-  beat_.add(pair->left.time_ns, pair->skew_ns(), nominal_period_ns_);
-  skew_s_ = 1e-9 * static_cast<double>(pair->skew_ns());
-  const auto& dropped = pairer_.counts().without_partner;
-  queue_.push_back({std::move(*pair), dropped[0] + dropped[1], beat_.skewRate()});
-  if (queue_.size() > kQueueLength) {
-    queue_.pop_front();
-    ++delivered_late_;
-  }
-  pair_ready_.notify_one();
+  enqueue(std::move(*pair));
+  if (!delivering_) deliverPairs(lock);
 }
 
-void StereoCamera::deliverPairs() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  while (true) {
-    pair_ready_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
-    if (stopping_) return;
+void StereoCamera::enqueue(FramePair pair) {
+  beat_.add(pair.left.time_ns, pair.skew_ns(), pairer_.period_ns());
+  skew_s_ = 1e-9 * static_cast<double>(pair.skew_ns());
+  const auto& dropped = pairer_.counts().without_partner;
+  queue_.push_back({std::move(pair), dropped[0] + dropped[1], beat_.skewRate()});
+  if (queue_.size() <= kQueueLength) return;
+  queue_.pop_front();
+  ++delivered_late_;
+}
+
+/// Also what the other camera completes meanwhile, so that pairs keep their order.
+void StereoCamera::deliverPairs(std::unique_lock<std::mutex>& lock) {
+  delivering_ = true;
+  while (!queue_.empty()) {
     StereoImages images = std::move(queue_.front());
     queue_.pop_front();
     const std::int64_t now_ns = kernel_.monotonicNow();
@@ -92,10 +87,17 @@ void StereoCamera::deliverPairs() {
     if (match_exposure_) matchExposure();
     lock.lock();
   }
+  delivering_ = false;
 }
 
 void StereoCamera::matchExposure() {
   const CameraStatus left = left_.status();
+  if (left.exposure_untold && !std::exchange(told_of_untold_exposure_, true)) {
+    log_(
+        Severity::Warning,
+        "match_exposure: the left camera has not told the exposure time that it chose; the right one follows "
+        "as soon as it does. If the images stay different, set exposure_ms");
+  }
   if (left.exposure && left.exposure != matched_exposure_) {
     matched_exposure_ = left.exposure;
     right_.setControl("auto_exposure", V4L2_EXPOSURE_MANUAL);

@@ -219,6 +219,7 @@ std::optional<LentBuffer> V4l2Device::dequeue() {
   require(result, Step::Dequeue, format_text_);
   if (buffer.index >= buffers_.size()) throw explainFailure(Step::Dequeue, EIO, path_, "unknown buffer");
   LentBuffer lent;
+  lent.dequeued_ns = kernel_.monotonicNow();
   lent.index = buffer.index;
   lent.data = static_cast<const std::uint8_t*>(buffers_[buffer.index].address);
   lent.size = std::min<std::size_t>(buffer.bytesused, buffers_[buffer.index].length);

@@ -12,11 +12,19 @@ using diagnostic_msgs::DiagnosticStatus;
 /// Slower than this share of the wanted rate is worth a warning.
 constexpr double kSlow = 0.8;
 
+const char* likelyCause(const capture::CameraStatus& camera, double wanted_rate_hz) {
+  const bool has_no_such_rate = camera.format.rate_hz > 0.0 && camera.format.rate_hz < kSlow * wanted_rate_hz;
+  return has_no_such_rate ? "the camera has no higher rate in this format and size (list_cameras shows which)"
+                          : "long exposure in poor light, or a busy USB bus";
+}
+
 void addCounts(const capture::CameraStatus& camera, CaptureDiagnostics::Status& status) {
   status.add("Device", camera.device.path);
   status.add("Camera", camera.device.card);
   status.add("Port", camera.device.bus_info);
   status.add("Format", capture::fourccText(capture::fourccOf(camera.format.layout.format)));
+  status.addf("Size (px)", "%dx%d", camera.format.layout.width, camera.format.layout.height);
+  status.addf("Rate agreed with the driver (Hz)", "%.2f", camera.format.rate_hz);
   status.addf("Rate (Hz)", "%.2f", camera.rate_hz);
   status.add("Frames", camera.frames);
   status.add("Lost by the driver", camera.lost);
@@ -48,9 +56,8 @@ void CaptureDiagnostics::describeCamera(capture::Side side, Status& status) {
   } else {
     status.summary(DiagnosticStatus::OK, "Images are coming");
     if (camera.rate_hz < kSlow * sources_.wanted_rate_hz) {
-      status.mergeSummaryf(DiagnosticStatus::WARN,
-                           "%.1f of %.1f images a second: long exposure in poor light, or a busy USB bus",
-                           camera.rate_hz, sources_.wanted_rate_hz);
+      status.mergeSummaryf(DiagnosticStatus::WARN, "%.1f of %.1f images a second: %s", camera.rate_hz,
+                           sources_.wanted_rate_hz, likelyCause(camera, sources_.wanted_rate_hz));
     }
     if (!camera.clock_warning.empty()) status.mergeSummary(DiagnosticStatus::WARN, camera.clock_warning);
     for (const auto& warning : camera.control_warnings) status.mergeSummary(DiagnosticStatus::WARN, warning);

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "stereo_nav/capture/decoder.h"
@@ -76,63 +76,102 @@ void pairOfMjpg(benchmark::State& state) {
     index = (index + 1) % kFrames;
   }
   state.counters["kB_per_image"] = static_cast<double>(bytes) / 2e3 / static_cast<double>(state.iterations());
-  // Share of one core at 30 pairs a second.
   // Seconds of processor time for 30 pairs: the share of one core at 30 Hz.
   state.counters["cores_at_30Hz"] =
       benchmark::Counter(static_cast<double>(state.iterations()) / 30.0,
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.SetLabel(encodingName(encoding));
 }
-std::int64_t median(std::vector<std::int64_t>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+
+/// Milliseconds.
+double median_ms(std::vector<std::int64_t> values_ns) {
+  if (values_ns.empty()) return 0.0;
+  const auto middle = values_ns.begin() + static_cast<std::ptrdiff_t>(values_ns.size() / 2);
+  std::nth_element(values_ns.begin(), middle, values_ns.end());
+  return 1e-6 * static_cast<double>(*middle);
 }
 
-FakeCamera webcam(const std::string& port, const Jpeg& image) {
-  FakeCamera camera;
-  camera.bus_info = port;
-  camera.fourcc = V4L2_PIX_FMT_MJPEG;
-  camera.payload = image;
-  camera.period_ns = 33'333'333;
-  return camera;
-}
+/// Two webcams at 30 Hz that are played by the test's system calls, the right one `skew_ms` later.
+class PlayedCameras {
+ public:
+  explicit PlayedCameras(std::int64_t skew_ms) {
+    plugIn(0, "usb-fake-1", left_jpeg_, 0);
+    plugIn(1, "usb-fake-2", right_jpeg_, skew_ms * 1'000'000);
+    config_.left = {
+        "left", kernel_.path(0), {PixelFormat::Mjpg, kWidth, kHeight, 30.0}, Encoding::Bgr8, {}, 4, 1.0};
+    config_.right = config_.left;
+    config_.right.device = kernel_.path(1);
+  }
 
-/// Both capture threads and the delivery at 30 Hz, on cameras that are played: processor time of the whole
-/// process, and the time from taking the later image from the driver to handing the pair on.
+  /// Captures for as long as the benchmark lasts.
+  StereoStatus run(benchmark::State& state, StereoCamera::PairSink on_pair) {
+    StereoCamera camera(config_, kernel_, kernel_.finder(), std::move(on_pair),
+                        [](Severity, const std::string&) {});
+    camera.start();
+    for (auto _ : state) std::this_thread::sleep_for(std::chrono::seconds(1));
+    camera.stop();
+    return camera.status();
+  }
+
+  std::int64_t now_ns() { return kernel_.monotonicNow(); }
+  const Jpeg& rightJpeg() const { return right_jpeg_; }
+
+ private:
+  void plugIn(int number, const std::string& port, const Jpeg& image, std::int64_t offset_ns) {
+    FakeCamera camera;
+    camera.bus_info = port;
+    camera.fourcc = V4L2_PIX_FMT_MJPEG;
+    camera.payload = image;
+    camera.period_ns = 33'333'333;
+    camera.offset_ns = offset_ns;
+    kernel_.plugIn(number, camera);
+  }
+
+  FakeKernel kernel_;
+  Jpeg left_jpeg_ = readFrames("robotL.mp4").front();
+  Jpeg right_jpeg_ = readFrames("robotR.mp4").front();
+  StereoConfig config_;
+};
+
+/// Processor time of the whole process, both capture threads.
 void captureAt30Hz(benchmark::State& state) {
-  FakeKernel kernel;
-  kernel.plugIn(0, webcam("usb-fake-1", readFrames("robotL.mp4").front()));
-  kernel.plugIn(1, webcam("usb-fake-2", readFrames("robotR.mp4").front()));
-  StereoConfig config;
-  config.left = {"left", kernel.path(0), {PixelFormat::Mjpg, kWidth, kHeight, 30.0}, Encoding::Bgr8, {}, 4,
-                 1.0};
-  config.right = config.left;
-  config.right.device = kernel.path(1);
-  std::mutex mutex;
-  std::vector<std::int64_t> latencies_ns;
-  StereoCamera camera(
-      config, kernel, kernel.finder(),
-      [&](const StereoImages& images) {
-        const auto& [left, right] = images.pair;
-        const std::lock_guard<std::mutex> lock(mutex);
-        latencies_ns.push_back(kernel.monotonicNow() - std::max(left.dequeued_ns, right.dequeued_ns));
-      },
-      [](Severity, const std::string&) {});
-  camera.start();
-  for (auto _ : state) std::this_thread::sleep_for(std::chrono::seconds(1));
-  camera.stop();
-  state.counters["pairs"] = static_cast<double>(latencies_ns.size());
-  state.counters["latency_ms_median"] =
-      latencies_ns.empty() ? 0.0 : 1e-6 * static_cast<double>(median(latencies_ns));
-  state.counters["decode_ms_latest"] = 1e3 * camera.status().left.decode_time_s;
+  PlayedCameras cameras(8);
+  std::uint64_t pairs = 0;
+  cameras.run(state, [&pairs](const StereoImages&) { ++pairs; });
+  state.counters["pairs"] = static_cast<double>(pairs);
 }
+
+/// From taking a pair's later image from the driver to handing the pair on, beside what decoding took: that
+/// of the very same image, and that of the same JPEG by decode() alone into memory of its own.
+void handOver(benchmark::State& state) {
+  PlayedCameras cameras(state.range(0));
+  std::vector<std::int64_t> latencies_ns, decodings_ns, beyond_ns, alone_ns;
+  const auto status = cameras.run(state, [&](const StereoImages& images) {
+    const std::int64_t now_ns = cameras.now_ns();
+    const auto& [left, right] = images.pair;
+    const Frame& later = left.dequeued_ns > right.dequeued_ns ? left : right;
+    latencies_ns.push_back(now_ns - later.dequeued_ns);
+    decodings_ns.push_back(later.decoding_ns);
+    beyond_ns.push_back(latencies_ns.back() - later.decoding_ns);
+    const Jpeg& jpeg = cameras.rightJpeg();
+    const std::int64_t start_ns = cameras.now_ns();
+    DecodedImage image;
+    benchmark::DoNotOptimize(decode(jpeg.data(), jpeg.size(), kLayout, Encoding::Bgr8, image));
+    alone_ns.push_back(cameras.now_ns() - start_ns);
+  });
+  state.counters["pairs"] = static_cast<double>(status.pairing.pairs);
+  state.counters["latency_ms"] = median_ms(latencies_ns);
+  state.counters["decoding_ms"] = median_ms(decodings_ns);
+  state.counters["beyond_decoding_ms"] = median_ms(beyond_ns);
+  state.counters["decoding_alone_ms"] = median_ms(alone_ns);
+}
+
 BENCHMARK(captureAt30Hz)
     ->Iterations(10)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
-
+BENCHMARK(handOver)->ArgName("skew_ms")->Arg(0)->Arg(8)->Iterations(35)->UseRealTime();
 BENCHMARK(pairOfMjpg)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace

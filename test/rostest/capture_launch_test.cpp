@@ -23,9 +23,11 @@ bool waitUntil(const std::function<bool()>& condition) {
   return ros::ok();
 }
 
-/// The newest of each of the node's states, by the end of its name.
+/// The newest of each of the states of a rig's capture node, by the end of their names.
 class Diagnostics {
  public:
+  explicit Diagnostics(const std::string& rig) : node_(rig + "/stereo_capture: ") {}
+
   std::string textOf(const std::string& part) const {
     const auto found = states_.find(part);
     if (found == states_.end()) return {};
@@ -39,16 +41,19 @@ class Diagnostics {
 
  private:
   void add(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
-    for (const auto& state : message->status) states_[state.name.substr(state.name.find(": ") + 2)] = state;
+    for (const auto& state : message->status) {
+      if (state.name.compare(0, node_.size(), node_) == 0) states_[state.name.substr(node_.size())] = state;
+    }
   }
 
+  const std::string node_;
   ros::NodeHandle handle_;
   ros::Subscriber subscriber_ = handle_.subscribe("/diagnostics", 100, &Diagnostics::add, this);
   std::map<std::string, diagnostic_msgs::DiagnosticStatus> states_;
 };
 
 TEST(CaptureLaunch, TheNodeStaysUpAndNamesTheMissingCameras) {
-  const Diagnostics diagnostics;
+  const Diagnostics diagnostics("rig");
   for (const std::string side : {"left", "right"}) {
     const std::string part = side == "left" ? "Left camera" : "Right camera";
     EXPECT_TRUE(waitUntil([&] { return diagnostics.says(part, "no-" + side + "-camera"); }))
@@ -84,13 +89,13 @@ TEST(CaptureLaunch, EveryTopicAndParameterIsUnderTheNamespace) {
   EXPECT_TRUE(ros::param::get("/rig/stereo_capture_disparity/disparity_range", range))
       << "config/disparity.yaml";
   EXPECT_GT(range, 0);
-  int control = -1;
-  EXPECT_TRUE(ros::param::get("/rig/stereo_capture/controls/power_line_frequency", control));
-  EXPECT_EQ(control, 1);
+  double max_skew_s = 0.0;
+  EXPECT_TRUE(ros::param::get("/rig/stereo_capture/max_skew_s", max_skew_s)) << "config/capture.yaml";
+  EXPECT_EQ(max_skew_s, 0.0167);
 }
 
 TEST(CaptureLaunch, ACalibrationOfTheWrongSizeAndAMissingOneAreNamed) {
-  const Diagnostics diagnostics;
+  const Diagnostics diagnostics("rig");
   EXPECT_TRUE(waitUntil([&] {
     return diagnostics.says("Left camera", "is for 320x240 images, the camera gives 640x480");
   })) << diagnostics.textOf("Left camera");
@@ -98,6 +103,24 @@ TEST(CaptureLaunch, ACalibrationOfTheWrongSizeAndAMissingOneAreNamed) {
   EXPECT_TRUE(waitUntil([&] {
     return diagnostics.says("Right camera",
                             "no calibration: package://stereo_nav/config/thesis/no_such_file.yaml");
+  })) << diagnostics.textOf("Right camera");
+}
+
+TEST(CaptureLaunch, APortWithoutCameraIsNamed) {
+  const Diagnostics diagnostics("spare");
+  EXPECT_TRUE(waitUntil([&] {
+    return diagnostics.says("Left camera", "usb-no-left-port: no camera at this port (connected: ");
+  })) << diagnostics.textOf("Left camera");
+}
+
+TEST(CaptureLaunch, ACalibrationThatCannotBeReadAndAnImpossibleUrlAreNamed) {
+  const Diagnostics diagnostics("spare");
+  EXPECT_TRUE(waitUntil([&] {
+    return diagnostics.says("Left camera",
+                            "package://stereo_nav/config/capture.yaml is missing or cannot be read");
+  })) << diagnostics.textOf("Left camera");
+  EXPECT_TRUE(waitUntil([&] {
+    return diagnostics.says("Right camera", "the calibration URL right.yaml is not of the form file:///path");
   })) << diagnostics.textOf("Right camera");
 }
 

@@ -32,6 +32,12 @@ class NodeProcess {
     return status_;
   }
 
+  /// Waits until it ends by itself; the same.
+  int join() {
+    if (pid_ > 0) wait(0);
+    return status_;
+  }
+
   /// Whether it has ended by itself.
   bool ended() {
     if (pid_ > 0) wait(WNOHANG);

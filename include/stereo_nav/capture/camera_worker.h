@@ -25,6 +25,7 @@ namespace stereo_nav::capture {
 enum class Severity { Info, Warning, Error };
 using Log = std::function<void(Severity, const std::string&)>;
 
+/// What one camera is asked for.
 struct CameraConfig {
   std::string name;    ///< for messages: "left" or "right"
   std::string device;  ///< /dev/videoN, a link to one, or a bus_info
@@ -56,7 +57,8 @@ struct CameraStatus {
   std::vector<std::string> control_warnings;
   std::optional<std::int32_t> exposure;  ///< control exposure_time_absolute, 100 us; where the camera tells
   std::optional<std::int32_t> gain;
-  double decode_time_s = 0.0;  ///< of the latest frame
+  bool exposure_untold = false;  ///< automatic, and the camera does not tell which time it chose
+  double decode_time_s = 0.0;    ///< of the latest frame, without taking it from the driver
 };
 
 /// One camera and its thread: opens, configures, captures the newest frames, decodes them and hands them on;
@@ -88,13 +90,15 @@ class CameraWorker {
   void openAndStream();
   void stream(V4l2Device& device);
   std::optional<LentBuffer> takeNewest(V4l2Device& device);
-  void deliver(V4l2Device& device, const LentBuffer& buffer, std::int64_t dequeued_ns);
+  void deliver(V4l2Device& device, const LentBuffer& buffer);
   void applyControls(V4l2Device& device, const std::vector<ControlSetting>& settings);
   void applyPendingControls(V4l2Device& device);
   void readExposure(V4l2Device& device);
+  bool exposureIsTold(V4l2Device& device, std::int32_t exposure);
   void noteFailure(const CaptureError& error);
   void noteUndecodable(const std::string& problem, std::int64_t now_ns);
   void noteFirstFrame();
+  void warnOfAnotherRate();
   bool sleepUnlessStopped(Backoff::Duration duration);
   void update(const std::function<void(CameraStatus&)>& change);
 
@@ -108,6 +112,7 @@ class CameraWorker {
   // The thread's own.
   std::optional<FoundDevice> seen_before_;
   ActiveFormat format_;
+  DecodedImage prepared_;  ///< memory for the next image
   DriverClock clock_;
   SequenceCounter sequence_;
   FrameRate rate_;
@@ -115,6 +120,8 @@ class CameraWorker {
   std::int64_t next_exposure_reading_ns_ = 0;
   std::int64_t next_undecodable_log_ns_ = 0;
   std::optional<double> exposure_s_;
+  std::optional<std::int32_t> automatic_exposure_;  ///< read last
+  bool exposure_changes_by_itself_ = false;
   std::string logged_problem_;
   std::uint64_t starts_ = 0;
   bool frames_flow_ = false;

@@ -39,7 +39,7 @@ const Control* findControl(const std::vector<Control>& controls, const std::stri
 /// Automatic modes first: a camera refuses or ignores a manual value while the automatic is on.
 std::vector<ControlSetting> inOrderOfSetting(std::vector<ControlSetting> settings);
 
-/// Same control, be it by its old or its new name.
-bool sameControl(const std::string& a, const std::string& b);
+/// Replaces the setting of the same control, be it by its old or its new name, or adds it.
+void setIn(std::vector<ControlSetting>& settings, const ControlSetting& setting);
 
 }  // namespace stereo_nav::capture

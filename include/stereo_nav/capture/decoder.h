@@ -13,6 +13,7 @@ namespace stereo_nav::capture {
 /// What the decoder makes: names as in ROS image encodings.
 enum class Encoding { Mono8, Bgr8 };
 
+/// As in ROS image messages: mono8 or bgr8.
 std::string encodingName(Encoding encoding);
 
 /// A decoded image, rows packed without padding (step = width * channels), so that its bytes can be moved
@@ -36,6 +37,10 @@ struct ImageLayout {
   int height = 0;
   std::size_t bytes_per_line = 0;  ///< 0 for compressed formats
 };
+
+/// Gives `image` the memory that decoding this layout takes, ahead of the image: a megabyte fresh from the
+/// system costs as much as a tenth of decoding a JPEG into it.
+void allocate(const ImageLayout& layout, Encoding encoding, DecodedImage& image);
 
 /// Decodes one image. Returns an empty text, or what is wrong with the data (then `image` is not to be used).
 /// A JPEG must have the layout's size and be complete; bytes between its markers are let pass, since many

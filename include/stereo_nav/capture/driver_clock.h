@@ -22,14 +22,14 @@ class DriverClock {
   void reset() { kind_.reset(); }
 
   /// The stamp in CLOCK_MONOTONIC, nanoseconds.
-  std::int64_t monotonicStamp(const LentBuffer& buffer, std::int64_t dequeued_ns);
+  std::int64_t monotonicStamp(const LentBuffer& buffer);
 
   std::optional<Kind> kind() const { return kind_; }
   /// What is doubtful about the stamps; empty when nothing is.
   const std::string& warning() const { return warning_; }
 
  private:
-  void recognise(const LentBuffer& buffer, std::int64_t dequeued_ns);
+  void recognise(const LentBuffer& buffer);
 
   Kernel& kernel_;
   std::optional<Kind> kind_;

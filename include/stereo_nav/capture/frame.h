@@ -9,6 +9,7 @@ namespace stereo_nav::capture {
 
 enum class Side { Left, Right };
 
+/// "left" or "right", for messages and topics.
 inline const char* sideName(Side side) {
   return side == Side::Left ? "left" : "right";
 }
@@ -22,6 +23,7 @@ struct Frame {
   std::int64_t time_ns = 0;      ///< middle of the exposure where that is known, else the driver's stamp
   std::int64_t stamp_ns = 0;     ///< the driver's stamp, in the monotonic clock
   std::int64_t dequeued_ns = 0;  ///< when the frame was taken from the driver
+  std::int64_t decoding_ns = 0;  ///< how long decoding took
   std::uint32_t sequence = 0;    ///< the driver's counter
   std::uint64_t lost = 0;        ///< frames that this camera's driver lost up to here
   double exposure_s = std::numeric_limits<double>::quiet_NaN();

@@ -9,6 +9,7 @@
 
 namespace stereo_nav::capture {
 
+/// Two frames that belong together; they may differ in time.
 struct FramePair {
   Frame left;
   Frame right;
@@ -22,11 +23,12 @@ struct PairerCounts {
   std::array<std::uint64_t, 2> out_of_order{};     ///< not later than the camera's previous frame
 };
 
-/// The time between a camera's frames, as the median of the latest intervals: gaps do not disturb it.
+/// The time between a camera's frames, as the median of the latest intervals. A gap in the driver's counter
+/// is an interval of several frames; one that the counter does not show does not disturb the median.
 class FramePeriod {
  public:
   explicit FramePeriod(std::int64_t nominal_ns) : nominal_ns_(nominal_ns) {}
-  void add(std::int64_t interval_ns);
+  void add(std::int64_t interval_ns, std::uint32_t frames);
   std::int64_t get_ns() const;
 
  private:
@@ -53,6 +55,8 @@ class Pairer {
 
   void setMaxSkew(std::int64_t max_skew_ns) { max_skew_ns_ = max_skew_ns; }
   std::int64_t maxSkew_ns() const { return max_skew_ns_; }
+  /// Between the left camera's frames, measured; the nominal one at first.
+  std::int64_t period_ns() const { return lane(Side::Left).period.get_ns(); }
   const PairerCounts& counts() const { return counts_; }
   std::size_t waiting(Side side) const { return lane(side).frames.size(); }
 
@@ -62,6 +66,7 @@ class Pairer {
     std::deque<Frame> frames;
     FramePeriod period;
     std::optional<std::int64_t> latest_ns;
+    std::uint32_t latest_sequence = 0;
   };
   enum class Verdict { Pair, DropEarlier, Wait };
 

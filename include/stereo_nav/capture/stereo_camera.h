@@ -1,11 +1,9 @@
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
-#include <thread>
 
 #include "stereo_nav/capture/camera_worker.h"
 #include "stereo_nav/capture/clock_beat.h"
@@ -13,6 +11,7 @@
 
 namespace stereo_nav::capture {
 
+/// What the two cameras are asked for, and how their frames pair (`max_skew_s`: largest time between them).
 struct StereoConfig {
   CameraConfig left;
   CameraConfig right;
@@ -27,6 +26,7 @@ struct StereoImages {
   double skew_rate = 0.0;           ///< s/s; NaN until known
 };
 
+/// A snapshot for diagnostics.
 struct StereoStatus {
   CameraStatus left;
   CameraStatus right;
@@ -39,10 +39,13 @@ struct StereoStatus {
   double latency_s = 0.0;   ///< of the latest pair, from dequeuing its later image to handing it on
 };
 
-/// Two cameras, three threads: each camera has one, which captures and decodes; the third hands pairs to the
-/// receiver, so that a slow receiver disturbs no camera. At most kQueueLength pairs wait; older ones go.
+/// Two cameras, each with a thread that captures and decodes. The thread whose image completes a pair hands
+/// it to the receiver itself: no other one needs to be woken. While a receiver is slow, that camera skips to
+/// its newest image afterwards, and of pairs that the other camera completes meanwhile at most kQueueLength
+/// wait; older ones go.
 class StereoCamera {
  public:
+  /// Called on a camera's thread, one call at a time, in the order of the pairs.
   using PairSink = std::function<void(StereoImages)>;
 
   StereoCamera(const StereoConfig& config, Kernel& kernel, const DeviceFinder& finder, PairSink on_pair,
@@ -50,6 +53,7 @@ class StereoCamera {
   ~StereoCamera();
 
   void start();
+  /// Returns when both threads have ended and no pair is on its way.
   void stop();
   StereoStatus status() const;
   CameraWorker& left() { return left_; }
@@ -61,16 +65,16 @@ class StereoCamera {
 
   void take(Side side, Frame frame);
   void cameraStarted(Side side);
-  void deliverPairs();
+  void enqueue(FramePair pair);
+  void deliverPairs(std::unique_lock<std::mutex>& lock);
   void matchExposure();
 
   Kernel& kernel_;
   const bool match_exposure_;
-  const std::int64_t nominal_period_ns_;
   const PairSink on_pair_;
+  const Log log_;
 
   mutable std::mutex mutex_;
-  std::condition_variable pair_ready_;
   Pairer pairer_;
   ClockBeat beat_;
   FrameRate pair_rate_;
@@ -78,14 +82,14 @@ class StereoCamera {
   std::uint64_t delivered_late_ = 0;
   double latency_s_ = 0.0;
   double skew_s_ = 0.0;
-  bool stopping_ = false;
+  bool delivering_ = false;  ///< one of the threads is in deliverPairs()
 
   std::optional<std::int32_t> matched_exposure_;
   std::optional<std::int32_t> matched_gain_;
+  bool told_of_untold_exposure_ = false;
 
   CameraWorker left_;
   CameraWorker right_;
-  std::thread delivery_;
 };
 
 }  // namespace stereo_nav::capture

@@ -21,6 +21,7 @@ struct Capabilities {
   bool captures_video = false;  ///< single-planar capture with streaming, which is what webcams have
 };
 
+/// What a driver is asked for; it may agree to something near.
 struct FormatRequest {
   PixelFormat format = PixelFormat::Any;
   int width = 640;
@@ -51,6 +52,7 @@ struct LentBuffer {
   std::int64_t stamp_ns = 0;  ///< as the driver wrote it; of which clock and moment, `flags` says
   std::uint32_t flags = 0;    ///< V4L2_BUF_FLAG_...
   std::uint32_t sequence = 0;
+  std::int64_t dequeued_ns = 0;  ///< when it was taken from the driver, CLOCK_MONOTONIC
 
   bool isBroken() const;
 };

@@ -159,6 +159,7 @@ TEST_F(Device, FindsCamerasByPathByLinkAndByPort) {
   EXPECT_EQ(finder.list(&refused).size(), 1u);
   ASSERT_EQ(refused.size(), 1u) << "the metadata node is not worth a word";
   expectContains(refused[0], "usermod");
+  expectContains(messageOf([&] { finder.find("usb-fake-2"); }), "usermod");
   kernel_.change(10, [](FakeCamera& camera) { camera.open_error = 0; });
 
   expectContains(messageOf([&] { finder.find("usb-fake-3"); }), "connected: usb-fake-1, usb-fake-2");
@@ -196,6 +197,17 @@ TEST(Controls, OldAndNewNamesMeanTheSame) {
   EXPECT_EQ(findControl(controls, "auto_exposure"), &controls[0]);
   EXPECT_EQ(findControl(controls, "exposure_dynamic_framerate"), &controls[1]);
   EXPECT_EQ(findControl(controls, "gain"), nullptr);
+}
+
+TEST(Controls, OneSettingAControlWhateverItIsCalled) {
+  std::vector<ControlSetting> settings;
+  setIn(settings, {"exposure_auto", 3});
+  setIn(settings, {"gain", 10});
+  setIn(settings, {"auto_exposure", 1});
+  setIn(settings, {"gain", 20});
+  ASSERT_EQ(settings.size(), 2u);
+  EXPECT_EQ(settings[0].value, 1);
+  EXPECT_EQ(settings[1].value, 20);
 }
 
 TEST(Controls, AutomaticModesAreSetFirst) {

@@ -217,6 +217,7 @@ int FakeKernel::control(FakeCamera& camera, unsigned long request, void* argumen
       setText(query.name, known.description);
       query.minimum = known.minimum;
       query.maximum = known.maximum;
+      query.flags = known.flags;
       return 0;
     }
     return -EINVAL;

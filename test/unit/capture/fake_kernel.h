@@ -40,6 +40,7 @@ struct FakeCamera {
     std::uint32_t id;
     std::string description;
     std::int32_t minimum, maximum, value;
+    std::uint32_t flags = 0;  ///< V4L2_CTRL_FLAG_...
   };
   std::vector<FakeControl> controls;
 

@@ -82,12 +82,12 @@ Result run(const Stream& left, const Stream& right, int frames, std::int64_t max
     result.most_waiting =
         std::max({result.most_waiting, pairer.waiting(Side::Left), pairer.waiting(Side::Right)});
     if (!pair) continue;
-    const auto other = otherSide(event.side) == Side::Left ? pair->left.sequence : pair->right.sequence;
+    std::int64_t later_arrival_ns = 0;
     for (const auto& arrived : events) {
-      if (arrived.side != event.side && arrived.sequence == other) {
-        result.latencies_ns.push_back(event.arrival_ns - std::max(event.arrival_ns, arrived.arrival_ns));
-      }
+      const auto sequence = arrived.side == Side::Left ? pair->left.sequence : pair->right.sequence;
+      if (arrived.sequence == sequence) later_arrival_ns = std::max(later_arrival_ns, arrived.arrival_ns);
     }
+    result.latencies_ns.push_back(event.arrival_ns - later_arrival_ns);
     result.pairs.push_back(std::move(*pair));
   }
   result.counts = pairer.counts();
@@ -147,6 +147,20 @@ TEST(Pairer, DoesNotWaitForAFrameThatIsOverdue) {
   const auto pair = pairer.push(Side::Right, frameAt(1058 * kMillisecond, 1));
   ASSERT_TRUE(pair);
   EXPECT_EQ(pair->skew_ns(), 25 * kMillisecond);
+}
+
+TEST(Pairer, MeasuresThePeriodThroughLostFrames) {
+  Pairer pairer(10 * kMillisecond, kMaxSkew);
+  for (const std::uint32_t sequence : {0u, 2u, 4u, 5u, 8u, 10u}) {
+    pairer.push(Side::Left, frameAt(1000 * kMillisecond + sequence * kPeriod, sequence));
+  }
+  EXPECT_EQ(pairer.period_ns(), kPeriod);
+}
+
+TEST(Pairer, MeasuresThePeriodOfADriverThatDoesNotCount) {
+  Pairer pairer(10 * kMillisecond, kMaxSkew);
+  for (int i = 0; i < 5; ++i) pairer.push(Side::Left, frameAt(1000 * kMillisecond + i * kPeriod, 0));
+  EXPECT_EQ(pairer.period_ns(), kPeriod);
 }
 
 TEST(Pairer, ExactlyMaxSkewIsAllowedAndNotMore) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -27,7 +28,9 @@ class StereoRig {
     stereo_ = std::make_unique<StereoCamera>(
         config, kernel_, finder_,
         [this, receiver_delay](StereoImages images) {
+          EXPECT_FALSE(receiving_.exchange(true)) << "one pair at a time";
           std::this_thread::sleep_for(receiver_delay);
+          receiving_ = false;
           const std::lock_guard<std::mutex> lock(mutex_);
           if (!keep_images_) {
             images.pair.left.image = DecodedImage();
@@ -85,6 +88,7 @@ class StereoRig {
   Kernel& kernel_;
   DeviceFinder finder_;
   bool keep_images_ = true;
+  std::atomic<bool> receiving_{false};
   std::mutex mutex_;
   std::vector<StereoImages> pairs_;
   std::string log_;
