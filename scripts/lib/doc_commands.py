@@ -128,7 +128,8 @@ def problems(root):
 
 def main(root):
     found = list(problems(root))
-    print('\n'.join(found))
+    for problem in found:
+        print(problem)
     return 1 if found else 0
 
 
