@@ -10,14 +10,14 @@ def _skew_series(results, configs):
     for config in configs:
         points = [(float(point), results.values("skew", point, config)) for point in results.points("skew", config)]
         free = results.values("free", "free", config)
-        series[NAMES[config]] = points + ([(FREE_X, free)] if free else [])
+        series[NAMES[config]] = points + ([None, (FREE_X, free)] if free else [])
     return series
 
 
-def _skew_plot(results, configs, path):
+def _skew_plot(results, configs, path, first_style=1):
     labels = [(float(point), point) for point in results.points("skew")] + [(FREE_X, "two clocks")]
     plots.curves(path, "right image later than left (ms)", "RMSE over the way-points (m)", _skew_series(results, configs),
-                 plots.tics(labels))
+                 plots.tics(labels), first_style)
 
 
 def _change(before, after):
@@ -31,7 +31,7 @@ def _change(before, after):
 
 
 def skew(results, pictures):
-    _skew_plot(results, ["thesis", "stereo"], pictures + "/skew.svg")
+    _skew_plot(results, ["stereo", "thesis"], pictures + "/skew.svg")
     thesis, default = ({point: results.mean("skew", point, config) for point in results.points("skew", config)}
                        for config in ("thesis", "stereo"))
     first, last = min(thesis, key=float), max(thesis, key=float)
@@ -58,7 +58,7 @@ def drives_table_of(results, groups, configs):
 
 
 def disparity_choice(results, pictures):
-    _skew_plot(results, ["thesis", "thesis_latest"], pictures + "/latest.svg")
+    _skew_plot(results, ["thesis", "thesis_latest"], pictures + "/latest.svg", 2)
     matched, latest = (results.mean("skew", "0", config) for config in ("thesis", "thesis_latest"))
     return ("## Latest against matched disparity\n\nThe thesis' program lifts features with the newest disparity map that has "
             "arrived, which is that of the frame before. Without skew that makes the RMSE %s (%.2f instead of %.2f m).\n\n%s\n\n"
@@ -68,10 +68,10 @@ def disparity_choice(results, pictures):
 
 
 def rotation(results, pictures):
-    _skew_plot(results, ["thesis", "thesis_vision"], pictures + "/rotation_skew.svg")
+    _skew_plot(results, ["thesis", "thesis_vision"], pictures + "/rotation_skew.svg", 2)
     drifts = [point for point in results.points("drift", "thesis")]
     series = {NAMES[config]: [(float(point), results.values("drift", point, config)) for point in drifts]
-              for config in ("thesis", "stereo")}
+              for config in ("stereo", "thesis")}
     vision = results.values("drift", "0", "thesis_vision")
     series[NAMES["thesis_vision"]] = [(float(point), vision) for point in (drifts[0], drifts[-1])]
     plots.curves(pictures + "/rotation_drift.svg", "drift of the IMU's yaw (deg/s)", "RMSE over the way-points (m)", series,
@@ -98,8 +98,8 @@ def rotation(results, pictures):
 def resolution(results, pictures):
     points = results.points("resolution")
     thesis_of = {"320x240": "thesis", "640x480": "thesis_range128", "1280x960": "thesis_range256"}
-    series = {NAMES["thesis"]: [(i, results.values("resolution", point, thesis_of[point])) for i, point in enumerate(points)],
-              NAMES["stereo"]: [(i, results.values("resolution", point, "stereo")) for i, point in enumerate(points)]}
+    series = {NAMES["stereo"]: [(i, results.values("resolution", point, "stereo")) for i, point in enumerate(points)],
+              NAMES["thesis"]: [(i, results.values("resolution", point, thesis_of[point])) for i, point in enumerate(points)]}
     plots.curves(pictures + "/resolution.svg", "image size", "RMSE over the way-points (m)", series,
                  plots.tics(list(enumerate(points))))
     trends = {config: (results.mean("resolution", points[0], first), results.mean("resolution", points[-1], last))

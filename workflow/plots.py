@@ -10,7 +10,7 @@ def draw(path, commands, height_px=400):
     header = (
         "set terminal svg size 820,%d dynamic font 'Helvetica,13' background rgb 'white'\nset output '%s'\n"
         "set border 3 lc rgb '#5f6b76'\nset tics nomirror out scale 0.6 textcolor rgb '#3a444d'\n"
-        "set grid lc rgb '#dfe4e8' lw 1 dt 1\nset key outside below horizontal samplen 2\n" % (height_px, path))
+        "set grid lc rgb '#dfe4e8' lw 1 dt 1\nset key outside top center horizontal samplen 2\n" % (height_px, path))
     styles = "".join("set style line %d lc rgb '%s' lw 2 pt 7 ps 0.6\n" % item for item in enumerate(COLOURS, 1))
     subprocess.run(["gnuplot"], input=header + styles + commands + "\n", text=True, check=True)
 
@@ -20,24 +20,29 @@ def quoted(text):
     return "'%s'" % text.replace("'", "''")
 
 
+def quoted_label(text):
+    """Of an axis' tic, where % begins a format."""
+    return quoted(text.replace("%", "%%"))
+
+
 def block(rows):
-    """Inline data of gnuplot."""
-    return "".join(" ".join("%g" % value for value in row) + "\n" for row in rows) + "e\n"
+    """Inline data of gnuplot; None interrupts the line."""
+    return "".join(" ".join("%g" % value for value in row or ()) + "\n" for row in rows) + "e\n"
 
 
 def tics(labels, rotate=False):
-    return "set xtics (%s)%s\n" % (", ".join("%s %g" % (quoted(label), x) for x, label in labels),
+    return "set xtics (%s)%s\n" % (", ".join("%s %g" % (quoted_label(label), x) for x, label in labels),
                                    " rotate by -12" if rotate else "")
 
 
-def curves(path, xlabel, ylabel, series, commands=""):
-    """Mean (line) and range (bars) over the seeds; series: title -> [(x, values of the seeds)]."""
+def curves(path, xlabel, ylabel, series, commands="", first_style=1):
+    """Mean (line) and range (bars) over the seeds; series: title -> [(x, values of the seeds)], None interrupts."""
     text = "set xlabel %s\nset ylabel %s\nset yrange [0:*]\nset offsets graph 0.03, graph 0.03, graph 0.05, 0\n%s" % (
         quoted(xlabel), quoted(ylabel), commands)
     text += "plot " + ", ".join("'-' with yerrorlines ls %d title %s" % (i, quoted(title))
-                                for i, title in enumerate(series, 1)) + "\n"
-    draw(path, text + "".join(block((x, statistics.mean(values), min(values), max(values)) for x, values in points)
-                              for points in series.values()))
+                                for i, title in enumerate(series, first_style)) + "\n"
+    draw(path, text + "".join(block(point and (point[0], statistics.mean(point[1]), min(point[1]), max(point[1]))
+                                    for point in points) for points in series.values()))
 
 
 def seeds(path, ylabel, cases, commands=""):

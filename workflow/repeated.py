@@ -63,12 +63,12 @@ def features(results, pictures):
         if not marks:
             times = results.waypoint_times(drive)
             marks = "".join("set arrow %d from %g, graph 0 to %g, graph 1 nohead lc rgb '#9aa4ad' dt 2\n"
-                            "set label %d '%d' at %g, graph 1.03 center tc rgb '#5f6b76'\n" % (n, t, t, n, n, t)
+                            "set label %d '%d' at %g, graph 0.97 center tc rgb '#5f6b76'\n" % (n, t, t, n, n, t)
                             for n, t in enumerate(times, 1))
         rows.append([NAMES[config]] + [spread((row[key] for row in chosen), 1) for key in ("features_mean", "inliers_mean")])
     rows.append(["thesis, its three drives", THESIS_FEATURES, THESIS_INLIERS])
     plots.lines(pictures + "/features.svg", "time (s); numbers above: way-points", "per image", series,
-                marks + "set yrange [0:*]\n")
+                marks + "set yrange [0:220]\n")
     return ("## Features and inliers over the course\n\nUnder the thesis' conditions (%s, latest disparity, its IMU); the "
             "plot shows seed 1.\n\n%s\n\n![features](experiments/features.svg)" % (
                 point, table(["configuration", "features per image", "inliers per image"], rows)))

@@ -11,19 +11,20 @@ import repeated
 import requirements
 from results import Results
 
+# Each section and the groups of drives that it tells about; it is left out when one of them was not driven.
 SECTIONS = [
-    requirements.requirements,
-    requirements.accuracy,
-    repeated.live_rates,
-    repeated.yaw_drift,
-    repeated.features,
-    repeated.triangulation,
-    repeated.position_drives,
-    curves.causes,
-    curves.skew,
-    curves.disparity_choice,
-    curves.rotation,
-    curves.resolution,
+    (requirements.requirements, ["ideal", "thesis_conditions"]),
+    (requirements.accuracy, ["accuracy"]),
+    (repeated.live_rates, []),
+    (repeated.yaw_drift, []),
+    (repeated.features, ["thesis_conditions"]),
+    (repeated.triangulation, []),
+    (repeated.position_drives, ["ideal", "thesis_conditions"]),
+    (curves.causes, ["ideal", "ablation", "thesis_conditions"]),
+    (curves.skew, ["skew", "free"]),
+    (curves.disparity_choice, ["skew", "free"]),
+    (curves.rotation, ["skew", "free", "drift"]),
+    (curves.resolution, ["resolution"]),
 ]
 
 INTRODUCTION = """# The thesis' experiments, repeated in simulation
@@ -42,7 +43,10 @@ def main():
     os.makedirs(pictures, exist_ok=True)
     texts = [INTRODUCTION.format(runs=len({(row["drive"], row["config"]) for row in results.rows}),
                                  drives=len({row["drive"] for row in results.rows}))]
-    texts += [text for text in (section(results, pictures) for section in SECTIONS) if text]
+    for section, groups in SECTIONS:
+        text = section(results, pictures) if all(results.points(group) for group in groups) else None
+        if text:
+            texts.append(text)
     with open(os.path.join(docs, "experiments.md"), "w") as file:
         file.write("\n\n".join(texts) + "\n")
 

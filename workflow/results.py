@@ -109,6 +109,9 @@ def drives_table(results, groups):
                 if chosen:
                     rows.append([point, NAMES[config], len(chosen)] + [spread(row[key] for row in chosen) for key in (
                         "rmse_x_m", "rmse_y_m", "rmse_m", "end_error_m")] + [
-                            spread((end_percent(row) for row in chosen), 1), spread(course_ratio(waypoints(row)) for row in chosen)])
+                            spread((end_percent(row) for row in chosen), 1), spread(course_ratio(waypoints(row)) for row in chosen),
+                            spread((row["inliers_mean"] for row in chosen), 1),
+                            "%d of %d" % (sum(int(row["frames_lost"]) for row in chosen), sum(int(row["frames"]) for row in chosen))])
     return table(["drive", "configuration", "seeds", "RMSE x (m)", "RMSE y (m)", "RMSE (m)", "end error (m)",
-                  "end error (% of course)", "way from point to point, estimated / true"], rows)
+                  "end error (% of course)", "way from point to point, estimated / true",
+                  "inliers", "images lost"], rows)
