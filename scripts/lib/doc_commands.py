@@ -65,7 +65,8 @@ def words_to_hold(command):
     run = re.search(r'rosrun \w+ (\S+)', command)
     words += [run.group(1)] if run else []
     words += re.findall(r'(?<=\s)--[a-z][a-z-]*|(?<=\s)\w+(?=:=)', command)
-    return [Path(word).name for word in words] or [command.split()[0]]
+    # A private parameter, _NAME:=VALUE, may as well be set by a launch file.
+    return [Path(word).name.lstrip('_') for word in words] or [command.split()[0]]
 
 
 def entry_problems(root, command, entry):
@@ -127,7 +128,8 @@ def problems(root):
 
 def main(root):
     found = list(problems(root))
-    print('\n'.join(found))
+    for problem in found:
+        print(problem)
     return 1 if found else 0
 
 

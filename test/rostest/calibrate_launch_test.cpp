@@ -9,6 +9,7 @@
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
@@ -138,6 +139,7 @@ class CalibrateLaunch : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!VirtualScreen::available()) GTEST_SKIP() << "Xvfb or xdotool is not installed";
+    fs::remove_all(folder);  // of an earlier run
     fs::create_directories(folder);
     // What somebody has saved there is not ours.
     if (fs::exists(kSaved)) fs::rename(kSaved, kept_);
@@ -155,7 +157,7 @@ TEST_F(CalibrateLaunch, TheButtonsLeadToASavedCalibrationThatIsGood) {
   std::ofstream(config) << "width: 320\nheight: 240\n";
   const VirtualScreen screen(folder);
   BoardPublisher board;
-  NodeProcess launched({"/usr/bin/env", "roslaunch", "stereo_nav", "calibrate.launch",
+  NodeProcess launched({"/usr/bin/env", "roslaunch", CALIBRATE_LAUNCH,
                         "left:=/dev/v4l/by-path/no-left-camera", "right:=/dev/v4l/by-path/no-right-camera",
                         "square:=0.051", "config:=" + config,
                         "left_calibration:=file://" + folder + "/left.yaml",
@@ -168,9 +170,11 @@ TEST_F(CalibrateLaunch, TheButtonsLeadToASavedCalibrationThatIsGood) {
   EXPECT_EQ(stamps, "true") << "the calibrator needs each image's own time";
 
   User user(screen, board);
-  ASSERT_TRUE(user.calibrateUntilEnd(launched, 300.0))
-      << "CALIBRATE " << user.pressed_calibrate << ", SAVE " << user.pressed_save << ", COMMIT "
-      << user.pressed_commit << ", the calibrator listens: " << board.isHeard();
+  const bool ended = user.calibrateUntilEnd(launched, 300.0);
+  if (!ended) cv::imwrite(folder + "/screen.png", screen.pixels());
+  ASSERT_TRUE(ended) << "CALIBRATE " << user.pressed_calibrate << ", SAVE " << user.pressed_save
+                     << ", COMMIT " << user.pressed_commit << ", the calibrator listens: " << board.isHeard()
+                     << "; what was on the screen is in " << folder << "/screen.png";
   EXPECT_TRUE(user.pressed_commit);
 
   // The capture node has saved what COMMIT sent.

@@ -25,6 +25,12 @@ std::size_t headerField(const std::vector<char>& dump, std::size_t index) {
   return value;
 }
 
+/// The number of an earlier server would lead to somebody else's screen.
+std::string withoutOldNumber(const std::string& folder) {
+  std::filesystem::remove(folder + "/display");
+  return folder;
+}
+
 }  // namespace
 
 bool VirtualScreen::available() {
@@ -32,7 +38,7 @@ bool VirtualScreen::available() {
 }
 
 VirtualScreen::VirtualScreen(const std::string& folder)
-    : folder_(folder),
+    : folder_(withoutOldNumber(folder)),
       server_({"/bin/bash", "-c",
                std::string("exec ") + kServer +
                    " -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp -fbdir '" + folder + "' >'" + folder +
