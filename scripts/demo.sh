@@ -55,7 +55,7 @@ rosbag record -q -O "$out/drive.bag" odom ground_truth/odom ground_truth/waypoin
 recorder=$!
 processes+=("$recorder")
 if $rviz; then
-  rosrun rviz rviz -d "$STEREO_NAV_ROOT/config/stereo_nav.rviz" >"$out/rviz.log" 2>&1 &
+  rosrun rviz rviz -d "$STEREO_NAV_ROOT/config/rviz/offline.rviz" >"$out/rviz.log" 2>&1 &
   processes+=($!)
 fi
 roslaunch stereo_nav replay.launch bag:="$out/arena.bag" config:="$STEREO_NAV_ROOT/config/$config" exit_at_end:=true \

@@ -3,7 +3,8 @@
 #
 #   scripts/install_dependencies.sh [GROUP...]
 #
-# GROUP: build (what building and running needs, the default), test, experiments. The lists are in scripts/dependencies/.
+# GROUP: build (what building and running needs, the default), visualise (rviz, and the aggregator of diagnostics), test,
+# experiments. The lists are in scripts/dependencies/.
 # Says nothing and needs no network when everything is there.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
@@ -11,7 +12,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
 groups=("$@")
 [[ $# -gt 0 ]] || groups=(build)
 for group in "${groups[@]}"; do
-  [[ $group == build || $group == test || $group == experiments ]] || die "unknown group '$group': build, test or experiments"
+  [[ " build visualise test experiments " == *" $group "* ]] ||
+    die "unknown group '$group': build, visualise, test or experiments"
 done
 
 source /etc/os-release

@@ -84,6 +84,15 @@ link_check() (
   git ls-files -z '*.md' | xargs -0 -r /usr/bin/python3 scripts/lib/check_links.py
 )
 
+message_check() (
+  git ls-files -z 'src/*.cpp' | xargs -0 /usr/bin/python3 scripts/lib/check_messages.py docs/troubleshooting.md
+)
+
+command_check() (
+  /usr/bin/python3 -c 'import yaml' || { echo "python3-yaml is not installed"; exit 77; }
+  /usr/bin/python3 scripts/lib/doc_commands.py .
+)
+
 check catkin_lint catkin_lint_check
 check clang_format format_check
 check shellcheck shell_check
@@ -92,4 +101,6 @@ check yaml yaml_check
 check python python_check
 check machine_paths path_check
 check links link_check
+check messages message_check
+check commands command_check
 [[ $failures -eq 0 ]]

@@ -68,7 +68,8 @@ class Marker:
                                                      "%g,%g" % truth if truth else ","))
             text = "way-point %d at (%.3f, %.3f)" % (len(self.marks), position.x, position.y)
         if self.truth and len(self.marks) == len(self.truth):
-            rospy.signal_shutdown("all way-points marked")
+            # Not before the service has answered.
+            threading.Timer(0.5, rospy.signal_shutdown, ["all way-points marked"]).start()
         return True, text
 
     def serve(self, _):

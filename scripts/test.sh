@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Build everything and run the tests.
 #
-#   scripts/test.sh [--lint] [--install] [--sanitize] [--tsan] [--all] [BUILD_DIR]
+#   scripts/test.sh [--lint] [--install] [--demo] [--sanitize] [--tsan] [--all] [BUILD_DIR]
 #
 # Always: every unit test and rostest, built in BUILD_DIR (build/ in the package unless given). Beside them, each with a
 # build folder of its own next to BUILD_DIR:
 #   --lint      package, formatting, scripts, launch files, documents (scripts/lint.sh)
 #   --install   what is installed works without the source tree, for another package, too
+#   --demo      scripts/demo.sh
 #   --sanitize  the unit tests under AddressSanitizer and UndefinedBehaviourSanitizer
 #   --tsan      the unit tests labelled tsan under ThreadSanitizer
 #   --all       all of these
@@ -19,14 +20,15 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
 
 usage() { sed -n '2,/^set/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" | sed '$d'; }
 
-lint=false install=false sanitize=false tsan=false build_dir=""
+lint=false install=false demo=false sanitize=false tsan=false build_dir=""
 for argument in "$@"; do
   case $argument in
     --lint) lint=true ;;
     --install) install=true ;;
+    --demo) demo=true ;;
     --sanitize) sanitize=true ;;
     --tsan) tsan=true ;;
-    --all) lint=true install=true sanitize=true tsan=true ;;
+    --all) lint=true install=true demo=true sanitize=true tsan=true ;;
     -h | --help)
       usage
       exit 0
@@ -103,6 +105,12 @@ if step "$build_dir" "build" "$STEREO_NAV_ROOT/scripts/build.sh" --tests "$build
   if $install; then
     say "what is installed"
     "$STEREO_NAV_ROOT/scripts/lib/install_checks.sh" "$build_dir" | tee "$build_dir/test_results/install.tap" || true
+  fi
+  if $demo; then
+    say "the demo"
+    if step "$build_dir" "demo" "$STEREO_NAV_ROOT/scripts/demo.sh" "$build_dir"; then
+      echo "ok demo" >>"$build_dir/test_results/steps.tap"
+    fi
   fi
   export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1:strict_string_checks=1}
   export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}

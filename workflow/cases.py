@@ -1,45 +1,74 @@
 """What the experiments run: every case is a simulated drive, evaluated with some configurations of the odometry."""
+import collections
+import hashlib
 import os
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts", "lib"))
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(ROOT, "scripts", "lib"))
 
-# Configurations: a file of config/ and what is changed in it.
+Config = collections.namedtuple("Config", "file odometry disparity true_step_px", defaults=({}, {}, None))
+
+# Configurations: a file of config/, what is changed in it and in config/disparity.yaml; with `true_step_px` the disparity
+# map is the true one, rounded to that step (0: not at all).
 CONFIGS = {
-    "thesis": ("vo_thesis.yaml", {}),
-    "thesis_latest": ("vo_thesis.yaml", {"thesis.disparity": "latest"}),
-    "thesis_vision": ("vo_thesis.yaml", {"thesis.rotation": "vision"}),
-    "thesis_near": ("vo_thesis.yaml", {"thesis.depth.min_disparity_px": 7.0}),
-    "thesis_strict": ("vo_thesis.yaml", {"thesis.rigidity.threshold_m": 0.02}),
-    "stereo": ("vo.yaml", {}),
+    "thesis": Config("vo_thesis.yaml"),
+    "thesis_latest": Config("vo_thesis.yaml", {"thesis.disparity": "latest"}),
+    "thesis_vision": Config("vo_thesis.yaml", {"thesis.rotation": "vision"}),
+    "thesis_near": Config("vo_thesis.yaml", {"thesis.depth.min_disparity_px": 7.0}),
+    "thesis_strict": Config("vo_thesis.yaml", {"thesis.rigidity.threshold_m": 0.02}),
+    "thesis_true": Config("vo_thesis.yaml", true_step_px="0"),
+    "thesis_true_64th": Config("vo_thesis.yaml", true_step_px="0.015625"),
+    "thesis_true_16th": Config("vo_thesis.yaml", true_step_px="0.0625"),
+    # The nearest depth that is found stays 0.89 m when the images get larger.
+    "thesis_range128": Config("vo_thesis.yaml", {}, {"disparity_range": 128}),
+    "thesis_range256": Config("vo_thesis.yaml", {}, {"disparity_range": 256}),
+    "stereo": Config("vo.yaml"),
 }
 
 BOTH = ["thesis", "stereo"]
+# The thesis' two choices (disparity map, source of the rotation) beside the default.
+CHOICES = ["thesis", "thesis_latest", "thesis_vision", "stereo"]
 PERFECT = ["imu.kind=perfect"]
-REAL_CAMERAS = ["timing.free_running=true", "timing.clock_ppm=200", "timing.jitter_ms=1", "sensor.exposure_ms=15"]
+TWO_CLOCKS = ["timing.free_running=true", "timing.clock_ppm=200", "timing.jitter_ms=1"]
+BLUR = ["sensor.exposure_ms=15"]
+# Slower cameras for the comparison of resolutions: large images cost 16 times as much to render.
+TEN_HZ = PERFECT + ["timing.rate_hz=10"]
+# The first is the thesis' module: 2.9 deg in 600 s.
+DRIFTS_DPS = ["0.0048", "0.03", "0.1", "0.3", "1"]
 
 # group -> point -> (scenario, settings, configurations). The settings are those of `simulate --set`.
 GROUPS = {
+    "accuracy": {
+        "arena 320x240": ("arena", [], ["stereo"]),
+        "arena 640x480": ("arena", ["rig.image_scale=2"], ["stereo"]),
+        "standstill": ("standstill", [], ["stereo"]),
+        "turn_in_place": ("turn_in_place", [], ["stereo"]),
+    },
     "ideal": {
-        "ideal": ("arena", PERFECT, BOTH + ["thesis_near", "thesis_strict"]),
+        "ideal": ("arena", PERFECT, BOTH + ["thesis_near", "thesis_strict", "thesis_true", "thesis_true_64th", "thesis_true_16th"]),
     },
     "ablation": {
-        "10 Hz": ("arena", PERFECT + ["timing.rate_hz=10"], ["thesis"]),
+        "10 Hz": ("arena", TEN_HZ, ["thesis"]),
         "1 m/s": ("arena", PERFECT + ["motion.max_speed_mps=1.0"], ["thesis"]),
         "no noise, no blur": ("arena", PERFECT + ["sensor.read_noise=0", "sensor.shot_noise=0", "sensor.exposure_ms=0"],
                               ["thesis"]),
     },
     "thesis_conditions": {
-        "free running, latest": ("arena", REAL_CAMERAS, ["thesis_latest", "thesis", "stereo", "thesis_vision"]),
+        "two clocks, blur": ("arena", TWO_CLOCKS + BLUR, CHOICES),
+        "two clocks, no blur": ("arena", TWO_CLOCKS + ["sensor.exposure_ms=0"], ["thesis_latest"]),
+        "one clock, blur": ("arena", BLUR, ["thesis_latest"]),
     },
-    "skew": {str(skew): ("arena", PERFECT + (["timing.skew_ms=%d" % skew] if skew else []), BOTH)
+    "skew": {str(skew): ("arena", PERFECT + (["timing.skew_ms=%d" % skew] if skew else []), CHOICES)
              for skew in (0, 4, 8, 12, 16)},
-    "free": {"free": ("arena", PERFECT + ["timing.free_running=true", "timing.jitter_ms=1"], BOTH)},
+    "free": {"free": ("arena", PERFECT + ["timing.free_running=true", "timing.jitter_ms=1"], CHOICES)},
     "resolution": {
-        "320x240": ("arena", PERFECT, BOTH),
-        "640x480": ("arena", PERFECT + ["rig.image_scale=2"], BOTH),
-        "1280x960": ("arena", PERFECT + ["rig.image_scale=4"], BOTH),
+        "320x240": ("arena", TEN_HZ, BOTH),
+        "640x480": ("arena", TEN_HZ + ["rig.image_scale=2"], ["thesis_range128", "stereo"]),
+        "1280x960": ("arena", TEN_HZ + ["rig.image_scale=4"], ["thesis_range256", "stereo"]),
     },
+    "drift": {"0": ("arena", PERFECT, ["thesis_vision"]), **{
+        drift: ("arena", ["imu.kind=thesis", "imu.yaw_drift_dps=" + drift], BOTH) for drift in DRIFTS_DPS}},
 }
 
 
@@ -49,14 +78,45 @@ def bag_name(scenario, settings, seed):
     return "__".join(part.replace("/", "_") for part in parts)
 
 
-def all_runs(groups, seeds, leave_out=()):
+def settings_with_same_images(scenario, settings):
+    """Those of a case that sees the same and differs in its IMU alone: images cost much more than the rest. None where
+    no case is like that."""
+    others = [setting for setting in settings if not setting.startswith("imu.")]
+    cases_of_all = [(case[0], sorted(case[1])) for points in GROUPS.values() for case in points.values()]
+    return others if others != settings and (scenario, sorted(others)) in cases_of_all else None
+
+
+def all_runs(groups, seeds_of, leave_out=()):
     """One (group, point, config, seed, bag name, scenario, settings) for everything that is evaluated."""
     runs = []
     for group in groups:
         for point, (scenario, settings, configs) in GROUPS[group].items():
             if point in leave_out:
                 continue
-            for seed in seeds:
+            for seed in seeds_of(group):
                 for config in configs:
                     runs.append((group, point, config, seed, bag_name(scenario, settings, seed), scenario, settings))
     return runs
+
+
+def digest(*paths):
+    """Of all files in these files and folders of the package: what changes when a result may change."""
+    total = hashlib.sha256()
+    for path in paths:
+        top = os.path.join(ROOT, path)
+        files = [top] if os.path.isfile(top) else sorted(
+            os.path.join(folder, name) for folder, _, names in os.walk(top) for name in names)
+        for name in files:
+            with open(name, "rb") as file:
+                total.update(file.read())
+    return total.hexdigest()[:16]
+
+
+def simulator_digest():
+    return digest("src/sim", "include/stereo_nav/sim", "src/ros_io/simulated_messages.cpp", "src/tools/simulated_bag.cpp",
+                  "config/thesis")
+
+
+def odometry_digest():
+    return digest("src/vo", "include/stereo_nav/vo", "src/eval", "src/ros_io/stereo_processing.cpp",
+                  "src/tools/evaluate_run.cpp", "src/tools/recorded_disparity.cpp")

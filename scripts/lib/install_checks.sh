@@ -2,15 +2,16 @@
 # Checks that what we install works without the source tree: install_checks.sh BUILD_DIR. Prints Test Anything Protocol
 # lines, what went wrong on standard error.
 #
-# Installs BUILD_DIR into an empty folder inside it and uses that as a stranger would: programs, launch files, and
-# test/external_package built against the library.
+# Installs in both ways that there are, each into an empty folder below BUILD_DIR: `cmake --install` of BUILD_DIR, and
+# `catkin_make install` of a workspace. Uses either as a stranger would: programs, launch files, and the package of
+# somebody else in test/external_package, which uses the library and the nodelet.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
 work_dir=$(absolute_path "$1")/install_checks
-prefix=$work_dir/prefix
-rm -rf "$work_dir"
-mkdir -p "$work_dir"
+workspace=$work_dir/workspace
+rm -rf "$work_dir/prefix" "$work_dir/external" "$workspace/install"  # what was compiled is used again
+mkdir -p "$workspace/src"
 
 failures=0
 check() {
@@ -25,15 +26,25 @@ check() {
   fi
 }
 
-install_package() { cmake --install "${work_dir%/*}" --prefix "$prefix"; }
-
-# as_user COMMAND...: with the install space's environment, and of this package nothing but that.
+# as_user COMMAND...: with the environment of the install space $prefix, and of this package nothing but that.
 as_user() (
   set +u
   source "$prefix/setup.bash"
   set -u
   "$@"
 )
+
+install_package() { cmake --install "${work_dir%/*}" --prefix "$prefix"; }
+
+# Quick to compile rather than quick to run; without catkin_make's habit of waiting until the computer is idle.
+catkin_make_install() {
+  ln -sfn "$STEREO_NAV_ROOT" "$workspace/src/stereo_nav"
+  ln -sfn "$STEREO_NAV_ROOT/test/external_package" "$workspace/src/stereo_nav_user"
+  local launcher=""
+  command -v ccache >/dev/null && launcher=ccache
+  catkin_make install -C "$workspace" -j "$(nproc)" -l 1000 -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=None \
+    -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"
+}
 
 package_found() { [[ $(as_user rospack find stereo_nav) == "$prefix/share/stereo_nav" ]]; }
 
@@ -57,17 +68,38 @@ nodelets_found() {
     [[ -f $prefix/$(sed -n 's/.*<library path="\([^"]*\)".*/\1.so/p' "$description") ]]
 }
 
+# external_program PROGRAM: the other package's program runs with an installed configuration.
+external_program() { as_user "$1" "$prefix/share/stereo_nav/config/vo_thesis.yaml"; }
+
 external_package_runs() {
   as_user cmake -S "$STEREO_NAV_ROOT/test/external_package" -B "$work_dir/external" \
     -DPYTHON_EXECUTABLE=/usr/bin/python3 &&
     cmake --build "$work_dir/external" &&
-    as_user "$work_dir/external/devel/lib/stereo_nav_user/use_odometry" \
-      "$prefix/share/stereo_nav/config/vo_thesis.yaml"
+    external_program "$work_dir/external/devel/lib/stereo_nav_user/use_odometry"
 }
 
+# The other package's launch file loads the nodelet into its own manager, and odometry comes out of that.
+external_nodelet_runs() (
+  export ROS_MASTER_URI=http://localhost:$((20000 + $$ % 10000)) ROS_HOSTNAME=localhost ROS_HOME=$work_dir/ros_home
+  as_user roslaunch -p "${ROS_MASTER_URI##*:}" --pid="$work_dir/roslaunch.pid" \
+    "$STEREO_NAV_ROOT/test/external_package/launch/own_manager.launch" &
+  trap 'kill -INT "$(cat "$work_dir/roslaunch.pid")"; wait' EXIT
+  as_user timeout 120 bash -c 'until rostopic info /odom 2>/dev/null | grep -q "/own_manager "; do sleep 1; done' &&
+    as_user timeout 120 rostopic echo -n 1 /odom
+)
+
+prefix=$work_dir/prefix
 check into_prefix install_package
 check package_found package_found
 check programs_complete programs_complete
 check nodelets_found nodelets_found
 check external_package external_package_runs
+check external_nodelet external_nodelet_runs
+
+prefix=$workspace/install
+check catkin_make catkin_make_install
+check catkin_make_package_found package_found
+check catkin_make_programs_complete programs_complete
+check catkin_make_nodelets_found nodelets_found
+check catkin_make_external_package external_program "$prefix/lib/stereo_nav_user/use_odometry"
 [[ $failures -eq 0 ]]

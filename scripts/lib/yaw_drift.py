@@ -6,8 +6,16 @@ import sys
 
 import rosbag
 
+STEP_S = 10.0  # between the points of the curve
+
 with rosbag.Bag(sys.argv[1]) as bag:
     yaws = [(m.header.stamp.to_sec(), 2 * math.atan2(m.orientation.z, m.orientation.w))
             for _, m, _ in bag.read_messages(topics=["imu/data"])]
-change = (yaws[-1][1] - yaws[0][1] + math.pi) % (2 * math.pi) - math.pi
-json.dump({"drift_deg": math.degrees(change), "duration_s": yaws[-1][0] - yaws[0][0]}, sys.stdout)
+start_s, start = yaws[0]
+changes = [(time_s - start_s, math.degrees((yaw - start + math.pi) % (2 * math.pi) - math.pi)) for time_s, yaw in yaws]
+curve, due_s = [], 0.0
+for time_s, change in changes:
+    if time_s >= due_s:
+        curve.append((time_s, change))
+        due_s += STEP_S
+json.dump({"drift_deg": changes[-1][1], "duration_s": changes[-1][0], "curve": curve}, sys.stdout)

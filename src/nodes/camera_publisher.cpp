@@ -48,7 +48,8 @@ std::string CameraPublisher::urlText() {
 
 std::string CameraPublisher::calibrationProblem(int width, int height) {
   const std::string remedy =
-      "; calibrate the cameras (docs/capture.md tells how) or give the right file as camera_info_url. Raw "
+      "; calibrate the cameras (docs/capture.md tells how) or give the right file as `calibration` in the "
+      "rig. Raw "
       "images are "
       "published all the same, rectified ones and disparity are not";
   if (!calibration_.validateURL(url_)) {

@@ -4,6 +4,9 @@
 
 #include <stdexcept>
 
+#include "stereo_nav/ros_io/parameter_server.h"
+#include "stereo_nav/ros_io/rig.h"
+
 namespace stereo_nav::nodes {
 namespace {
 
@@ -26,10 +29,20 @@ std::string resolve(const std::string& topic) {
 
 }  // namespace
 
-ImageProcLoader::ImageProcLoader(bool exact_stamps) : loader_(setDefaultThreads()) {
+ros_io::DisparityParams readDisparityParams(const ros::NodeHandle& private_handle) {
+  ros_io::DisparityParams params;
+  ros_io::readParameters({ros_io::fileSource(private_handle, "disparity_config"),
+                          ros_io::rigSource(private_handle, ros_io::rig_sections::kDisparity)},
+                         params);
+  return params;
+}
+
+ImageProcLoader::ImageProcLoader(bool exact_stamps, const ros_io::DisparityParams& disparity_params)
+    : loader_(setDefaultThreads()) {
   loadCamera("left");
   loadCamera("right");
   const ros::NodeHandle disparity(ros::this_node::getName() + "_disparity");
+  ros_io::writeParameters(disparity, disparity_params);
   disparity.setParam("approximate_sync", !exact_stamps);
   nodelet::M_string remappings = {{"disparity", resolve("camera/disparity")}};
   for (const std::string side : {"left", "right"}) {

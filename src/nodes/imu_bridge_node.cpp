@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "stereo_nav/ros_io/parameter_server.h"
+#include "stereo_nav/ros_io/rig.h"
 #include "stereo_nav/ros_io/topics.h"
 
 namespace stereo_nav::nodes {
@@ -21,8 +22,17 @@ using Covariance = boost::array<double, 9>;
 
 ImuBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
   ImuBridgeParams params;
-  ros_io::readParameters(private_handle, {"diagnostic_period"}, params);
+  ros_io::readParameters({ros_io::fileSource(private_handle, "config"),
+                          ros_io::rigSource(private_handle, ros_io::rig_sections::kImu),
+                          ros_io::serverSource(private_handle, {"diagnostic_period"})},
+                         params);
   return params;
+}
+
+/// dynamic_reconfigure takes its first values from the server.
+const ros::NodeHandle& announce(const ros::NodeHandle& private_handle, const ImuBridgeParams& params) {
+  ros_io::writeParameters(private_handle, params);
+  return private_handle;
 }
 
 /// A file that does not exist yet is one that imu/calibrate_gyro will write.
@@ -85,7 +95,11 @@ ImuBridgeNode::ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandl
       params_(readNodeParams(private_handle_)),
       device_(params_.device, imu::PortFinder(params_.port, params_.by_id_directory)),
       updater_(handle_, private_handle_),
-      estimator_(params_.filter, readCalibration(params_.calibration_file), params_.rate_window_s) {
+      estimator_(params_.filter, readCalibration(params_.calibration_file), params_.rate_window_s),
+      reconfigure_server_(announce(private_handle_, params_)) {
+  // Calls back at once with the parameters as they are.
+  reconfigure_server_.setCallback(
+      [this](const ImuBridgeConfig& config, std::uint32_t) { reconfigure(config); });
   data_ = handle_.advertise<sensor_msgs::Imu>(ros_io::topics::kImu, 100);
   quaternion_ = handle_.advertise<geometry_msgs::Quaternion>(ros_io::topics::kImuQuaternion, 100);
   if (params_.device.protocol == imu::Protocol::kRaw) {
@@ -97,6 +111,14 @@ ImuBridgeNode::ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandl
   updater_.setHardwareID(params_.port);
   updater_.add("imu", this, &ImuBridgeNode::fillStatus);
   watch_timer_ = handle_.createWallTimer(ros::WallDuration(0.5), &ImuBridgeNode::watch, this);
+}
+
+void ImuBridgeNode::reconfigure(const ImuBridgeConfig& config) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  params_.tilt_stddev_rad = config.tilt_stddev_rad;
+  params_.yaw_stddev_rad = config.yaw_stddev_rad;
+  params_.angular_velocity_stddev_rad_s = config.angular_velocity_stddev_rad_s;
+  params_.linear_acceleration_stddev_m_s2 = config.linear_acceleration_stddev_m_s2;
 }
 
 void ImuBridgeNode::run() {
@@ -119,7 +141,9 @@ ros::Time ImuBridgeNode::rosTime(double steady_s) {
 }
 
 void ImuBridgeNode::publish(const imu::ImuReading& reading) {
+  const ros::Time stamp = rosTime(reading.time_s);
   imu::ImuEstimate estimate;
+  sensor_msgs::Imu message, message_raw;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     estimate = estimator_.process(reading);
@@ -127,14 +151,16 @@ void ImuBridgeNode::publish(const imu::ImuReading& reading) {
       calibrator_->add(reading.time_s, reading.raw->angular_velocity, reading.raw->linear_acceleration);
       if (calibrator_->complete()) calibrated_.notify_all();
     }
+    message = toMessage(estimate, params_, stamp);
+    if (reading.raw) {
+      const imu::ImuEstimate raw{std::nullopt, reading.raw->angular_velocity,
+                                 reading.raw->linear_acceleration};
+      message_raw = toMessage(raw, params_, stamp);
+    }
   }
-  const ros::Time stamp = rosTime(reading.time_s);
-  data_.publish(toMessage(estimate, params_, stamp));
+  data_.publish(message);
   if (estimate.q_world_imu) quaternion_.publish(toMessage(*estimate.q_world_imu));
-  if (reading.raw) {
-    const imu::ImuEstimate raw{std::nullopt, reading.raw->angular_velocity, reading.raw->linear_acceleration};
-    data_raw_.publish(toMessage(raw, params_, stamp));
-  }
+  if (reading.raw) data_raw_.publish(message_raw);
   if (params_.chatter && reading.angles) publishAngles(*reading.angles);
 }
 

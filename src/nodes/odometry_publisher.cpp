@@ -52,9 +52,13 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle& handle, const VisualOdomet
       status_publisher_(handle.advertise<VoStatus>("vo/status", 50)),
       features_publisher_(handle.advertise<sensor_msgs::PointCloud2>("vo/features", 5)),
       image_transport_(handle),
-      debug_publisher_(image_transport_.advertise("vo/debug_image", 2)),
-      disparity_publisher_(image_transport_.advertise("vo/disparity_view", 2)) {
+      debug_publisher_(image_transport_.advertise("vo/debug_image", 2)) {
   path_.header.frame_id = params_.odom_frame;
+}
+
+void OdometryPublisher::setLive(bool publish_tf, double path_spacing_m) {
+  params_.publish_tf = publish_tf;
+  params_.path_spacing_m = path_spacing_m;
 }
 
 void OdometryPublisher::publish(const FrameMessages& frame, const SessionOutput& output,
@@ -144,14 +148,10 @@ void OdometryPublisher::publishViews(const FrameMessages& frame, const SessionOu
   if (features_publisher_.getNumSubscribers() > 0) {
     features_publisher_.publish(featureCloud(header, output.result.features));
   }
-  const auto toMessage = [&header](const cv::Mat& view) {
-    return cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, view).toImageMsg();
-  };
   if (debug_publisher_.getNumSubscribers() > 0) {
-    debug_publisher_.publish(toMessage(drawFeatures(output.images.left, output.result)));
-  }
-  if (disparity_publisher_.getNumSubscribers() > 0 && !output.images.disparity.empty()) {
-    disparity_publisher_.publish(toMessage(colourDisparity(output.images.disparity)));
+    const cv::Mat view = drawFeatures(output.images.left, output.result);
+    debug_publisher_.publish(
+        cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, view).toImageMsg());
   }
 }
 

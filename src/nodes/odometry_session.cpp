@@ -48,6 +48,11 @@ SessionOutput OdometrySession::process(const Inbox::Work& work, const SensorSetu
   return output;
 }
 
+void OdometrySession::setUncertainty(const UncertaintyParams& uncertainty) {
+  params_.uncertainty = uncertainty;
+  if (base_) base_->setUncertainty(uncertainty);
+}
+
 void OdometrySession::reset() {
   startAgain(Eigen::Isometry3d::Identity(), vo::Matrix6d::Zero());
   level_next_ = true;

@@ -1,38 +1,72 @@
 // A simulated robot at real time, in place of stereo_capture and imu_bridge.
-#include <exception>
+#include <sstream>
 
 #include "package_files.h"
+#include "stereo_nav/nodes/capture_setup.h"
+#include "stereo_nav/nodes/image_proc_loader.h"
+#include "stereo_nav/nodes/node_program.h"
 #include "stereo_nav/nodes/simulator_node.h"
 #include "stereo_nav/ros_io/parameter_server.h"
+#include "stereo_nav/ros_io/rig.h"
 
 namespace stereo_nav::nodes {
 namespace {
 
-/// `~scenario` (file or name), `~calibration` (folder, default the thesis' rig), `~set` (list of NAME=VALUE
-/// that change the scenario), and the simulator's own.
-void run() {
+/// What of a rig file the simulated devices have: calibration and mounting.
+struct SimulatedRig {
+  sim::StereoCalibrationPair calibration;
+  Eigen::Isometry3d T_base_imu = Eigen::Isometry3d::Identity();
+};
+
+/// The thesis' rig where `~rig` names no file; cameras sit where the scenario says then.
+SimulatedRig readRig(const ros::NodeHandle& private_node, sim::RigParams& cameras) {
+  const auto rig = private_node.param<std::string>("rig", "");
+  if (rig.empty()) return {sim::loadStereoCalibration(tools::thesisCalibrationFolder())};
+  CaptureSetup setup;
+  setup.read({ros_io::rigSource(private_node, ros_io::rig_sections::kCameras)});
+  const ros_io::Mounting mounting = ros_io::loadMounting(rig);
+  cameras.camera_x_m = mounting.camera.x_m;
+  cameras.camera_y_m = mounting.camera.y_m;
+  cameras.camera_z_m = mounting.camera.z_m;
+  cameras.camera_roll_deg = mounting.camera.roll_deg;
+  cameras.camera_pitch_deg = mounting.camera.pitch_deg;
+  cameras.camera_yaw_deg = mounting.camera.yaw_deg;
+  return {{sim::loadCameraCalibration(ros_io::pathOfUrl(setup.params.left.calibration)),
+           sim::loadCameraCalibration(ros_io::pathOfUrl(setup.params.right.calibration))},
+          mounting.imu.T_base_sensor()};
+}
+
+std::vector<std::string> splitSettings(const std::string& text) {
+  std::vector<std::string> settings;
+  std::istringstream stream(text);
+  for (std::string setting; std::getline(stream, setting, ';');) settings.push_back(setting);
+  return settings;
+}
+
+/// Beside the simulator's own parameters: the files `~rig` and `~disparity_config`.
+int run() {
   ros::NodeHandle node, private_node("~");
   SimulatorParams params;
-  ros_io::readParameters(private_node, {"scenario", "calibration", "set"}, params);
-  const auto calibration = private_node.param<std::string>("calibration", tools::thesisCalibrationFolder());
-  const auto overrides = private_node.param<std::vector<std::string>>("set", {});
-  const auto scenario = private_node.param<std::string>("scenario", "arena");
-  const sim::Simulation simulation(sim::loadScenario(tools::scenarioFile(scenario), overrides),
-                                   sim::loadStereoCalibration(calibration),
-                                   static_cast<std::uint64_t>(params.seed));
-  SimulatorNode(node, simulation, params).run();
+  ros_io::readParameters(
+      {ros_io::serverSource(private_node, {"disparity_config", "num_worker_threads", "diagnostic_period"})},
+      params);
+  sim::Scenario scenario =
+      sim::loadScenario(tools::scenarioFile(params.scenario), splitSettings(params.settings));
+  const SimulatedRig rig = readRig(private_node, scenario.rig);
+  const sim::Simulation simulation(scenario, rig.calibration, static_cast<std::uint64_t>(params.seed));
+  std::unique_ptr<ImageProcLoader> image_proc;
+  if (params.load_image_proc) {
+    image_proc = std::make_unique<ImageProcLoader>(true, readDisparityParams(private_node));
+  }
+  ros::AsyncSpinner spinner(1);  // for nodelets and diagnostics
+  spinner.start();
+  SimulatorNode(node, simulation, params, rig.T_base_imu).run();
+  return 0;
 }
 
 }  // namespace
 }  // namespace stereo_nav::nodes
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "simulator");
-  try {
-    stereo_nav::nodes::run();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+  return stereo_nav::nodes::runNode(argc, argv, "simulator", stereo_nav::nodes::run);
 }

@@ -1,6 +1,7 @@
 #include "stereo_nav/nodes/simulator_node.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "stereo_nav/ros_io/topics.h"
 
@@ -14,11 +15,11 @@ constexpr std::uint32_t kQueue = 10;
 }  // namespace
 
 SimulatorNode::SimulatorNode(ros::NodeHandle& node, const sim::Simulation& simulation,
-                             const SimulatorParams& params)
+                             const SimulatorParams& params, const Eigen::Isometry3d& T_base_imu)
     : simulation_(simulation),
       params_(params),
       start_(ros::Time::now() + ros::Duration(params.start_delay_s)),
-      messages_(simulation, start_),
+      messages_(simulation, start_, T_base_imu),
       transport_(node),
       left_image_(transport_.advertise(topics::kLeftImage, kQueue)),
       right_image_(transport_.advertise(topics::kRightImage, kQueue)),
@@ -29,16 +30,57 @@ SimulatorNode::SimulatorNode(ros::NodeHandle& node, const sim::Simulation& simul
       imu_quaternion_(node.advertise<geometry_msgs::Quaternion>(topics::kImuQuaternion, 10 * kQueue)),
       ground_truth_(node.advertise<nav_msgs::Odometry>(topics::kGroundTruth, kQueue)),
       waypoint_(node.advertise<geometry_msgs::PointStamped>(topics::kWaypoint, kQueue)),
-      tf_static_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)) {
-  tf_static_.publish(messages_.staticTransforms());
+      updater_(node, ros::NodeHandle("~")) {
+  if (params_.publish_tf_static) {
+    tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+    tf_static_.publish(messages_.staticTransforms());
+  }
+  updater_.setHardwareID("none");
+  updater_.add("simulated sensors", this, &SimulatorNode::fillStatus);
+  timer_ =
+      node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.update(); });
+}
+
+void SimulatorNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using Level = diagnostic_msgs::DiagnosticStatus;
+  const std::uint64_t late = pairs_late_;
+  if (late != std::exchange(pairs_late_reported_, late)) {
+    status.summary(Level::WARN, "pairs are dropped: this machine does not render them in real time");
+  } else {
+    status.summary(Level::OK, pairs_published_ == 0 ? "about to start" : "driving");
+  }
+  status.add("scenario", params_.scenario);
+  status.add("pairs published", pairs_published_);
+  status.add("pairs dropped as too late", late);
+  status.addf("drive lasts [s]", "%.1f", simulation_.duration_s());
 }
 
 void SimulatorNode::renderAhead() {
   const auto threads = static_cast<std::size_t>(params_.threads);
-  while (rendering_.size() < threads && next_to_render_ < simulation_.pairs().size()) {
+  const auto& pairs = simulation_.pairs();
+  while (rendering_.size() < threads && next_to_render_ < pairs.size()) {
     const std::size_t index = next_to_render_++;
-    rendering_.push_back(std::async(std::launch::async, [this, index] { return messages_.pair(index); }));
+    // One that cannot be ready in time is not begun: rendering it would make the next ones late, too.
+    if (pairs[index].left_s < now_s() + rendering_s_ - 0.5 * lateTolerance_s()) {
+      countLate();
+      continue;
+    }
+    rendering_.push_back(std::async(std::launch::async, [this, index] {
+      const ros::WallTime begin = ros::WallTime::now();
+      ros_io::PairMessages pair = messages_.pair(index);
+      rendering_s_ = (ros::WallTime::now() - begin).toSec();
+      return pair;
+    }));
   }
+}
+
+void SimulatorNode::countLate() {
+  ++pairs_late_;
+  ROS_WARN_THROTTLE(
+      5.0,
+      "%lu of %lu pairs came too late and were dropped: this machine does not render them in real "
+      "time. Lower rig/samples_per_pixel or rig/image_scale, or raise ~threads.",
+      static_cast<unsigned long>(pairs_late_), static_cast<unsigned long>(next_to_render_));
 }
 
 void SimulatorNode::publishUntil(double time_s) {
@@ -60,10 +102,10 @@ void SimulatorNode::publishPair(const ros_io::PairMessages& pair) {
   left_image_.publish(pair.left);
   right_image_.publish(pair.right);
   ground_truth_.publish(pair.ground_truth);
+  ++pairs_published_;
 }
 
 void SimulatorNode::run() {
-  const double tolerance_s = 2.0 / simulation_.scenario().timing.rate_hz;
   renderAhead();
   while (ros::ok() && !rendering_.empty()) {
     const ros_io::PairMessages pair = rendering_.front().get();
@@ -75,13 +117,8 @@ void SimulatorNode::run() {
       ros::WallDuration(std::min(0.004, pair.available_s - now)).sleep();
     }
     publishUntil(pair.available_s);
-    if (now_s() > pair.available_s + tolerance_s) {
-      ++pairs_late_;
-      ROS_WARN_THROTTLE(
-          5.0,
-          "%lu of %lu pairs came too late and were dropped: this machine does not render them in real "
-          "time. Lower rig/samples_per_pixel or rig/image_scale, or raise ~threads.",
-          static_cast<unsigned long>(pairs_late_), static_cast<unsigned long>(next_to_render_));
+    if (now_s() > pair.available_s + lateTolerance_s()) {
+      countLate();
       continue;
     }
     publishPair(pair);
@@ -91,10 +128,15 @@ void SimulatorNode::run() {
 }
 
 void SimulatorParams::describe(ParameterVisitor& visitor) {
+  visitor.text("scenario", scenario, "a file, or the name of one in config/scenarios");
+  visitor.text("settings", settings, "changes to the scenario: NAME=VALUE, with semicolons between");
   visitor.integer("seed", seed, {0, 1000000000}, "", "of noise, jitter and IMU errors");
   visitor.integer("threads", threads, {1, 64}, "", "for rendering");
   visitor.real("start_delay_s", start_delay_s, {0.0, 3600.0}, "s",
                "from the start of the node to the first pair");
+  visitor.flag("publish_tf_static", publish_tf_static,
+               "where the sensors sit; off where rig_transforms tells it");
+  visitor.flag("load_image_proc", load_image_proc, "rectify and compute disparity in this process");
 }
 
 }  // namespace stereo_nav::nodes

@@ -1,7 +1,6 @@
 // Holds a paused `rosbag play` until every subscriber of the graph is connected, then lets it run once. A
 // subscriber that connects later misses what was published before; with a chain of nodelets that is the first
 // few frames.
-#include <ros/ros.h>
 #include <std_srvs/SetBool.h>
 
 #include <map>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "stereo_nav/nodes/node_program.h"
 #include "stereo_nav/nodes/slave_api.h"
 
 namespace {
@@ -108,10 +108,7 @@ std::vector<std::string> topicsOf(const char* parameter) {
   return topics;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "start_playback");
+int run() {
   ros::NodeHandle handle;
   ros::NodeHandle private_handle("~");
   const Wanted wanted{topicsOf("topics"), topicsOf("if_subscribed")};
@@ -134,4 +131,10 @@ int main(int argc, char** argv) {
   }
   ROS_INFO("all connected, playback starts");
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return stereo_nav::nodes::runNode(argc, argv, "start_playback", run);
 }

@@ -1,17 +1,17 @@
-#include <ros/ros.h>
-
+// The stereo_capture node: two webcams in, pairs of images out.
+#include "stereo_nav/nodes/node_program.h"
 #include "stereo_nav/nodes/stereo_capture_node.h"
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "stereo_capture");
-  const ros::NodeHandle handle;
-  const ros::NodeHandle private_handle("~");
-  try {
-    const stereo_nav::nodes::StereoCaptureNode node(handle, private_handle);
-    ros::spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 2;
-  }
+namespace {
+
+int run() {
+  const stereo_nav::nodes::StereoCaptureNode node(ros::NodeHandle(), ros::NodeHandle("~"));
+  ros::spin();
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return stereo_nav::nodes::runNode(argc, argv, "stereo_capture", run);
 }

@@ -6,71 +6,25 @@
 
 #include "stereo_nav/StereoSync.h"
 #include "stereo_nav/ros_io/parameter_server.h"
+#include "stereo_nav/ros_io/rig.h"
 #include "stereo_nav/ros_io/topics.h"
 
 namespace stereo_nav::nodes {
 namespace {
 
-/// Names in the private namespace that are no fields of CaptureParams: text, maps, and those of libraries.
-const std::set<std::string> kOtherParameters = {"left",
-                                                "right",
-                                                "controls",
-                                                "frame_id",
-                                                "load_image_proc",
-                                                "image_transport",
-                                                "num_worker_threads",
-                                                "diagnostic_period"};
+/// Names in the private namespace that belong to others.
+const std::set<std::string> kForeignParameters = {"disparity_config", "image_transport", "num_worker_threads",
+                                                  "diagnostic_period"};
 
 constexpr double kRepeat_s = 60.0;
 constexpr std::int64_t kClockStep_ns = 10'000'000;
 
-capture::CaptureParams readParams(const ros::NodeHandle& private_handle) {
-  capture::CaptureParams params;
-  ros_io::readParameters(private_handle, kOtherParameters, params);
-  return params;
-}
-
-/// The map `controls` of both cameras and then that of this one, which wins.
-std::vector<capture::ControlSetting> readControls(const ros::NodeHandle& private_handle,
-                                                  const std::string& side) {
-  std::vector<capture::ControlSetting> settings;
-  for (const std::string& name : {std::string("controls"), side + "/controls"}) {
-    const YAML::Node map = ros_io::parameterTree(ros::NodeHandle(private_handle, name));
-    for (const auto& entry : map) {
-      const auto control = entry.first.as<std::string>();
-      try {
-        // true and false are how YAML writes many switches.
-        const auto value = entry.second.as<std::string>();
-        const bool is_bool = value == "true" || value == "false";
-        capture::setIn(settings,
-                       {control, is_bool ? static_cast<int>(value == "true") : entry.second.as<int>()});
-      } catch (const YAML::Exception&) {
-        throw ParameterError("~" + name + "/" + control + " must be a whole number, true or false");
-      }
-    }
-  }
-  return settings;
-}
-
-std::string readDevice(const ros::NodeHandle& private_handle, const std::string& side) {
-  std::string device;
-  if (private_handle.getParam(side + "/device", device) && !device.empty()) return device;
-  throw ParameterError("~" + side + "/device is not set: which is the " + side +
-                       " camera? `rosrun stereo_nav list_cameras` shows the cameras and what to write");
-}
-
-capture::StereoConfig readConfig(const ros::NodeHandle& private_handle,
-                                 const capture::CaptureParams& params) {
-  capture::StereoConfig config = params.toConfig();
-  for (capture::CameraConfig* camera : {&config.left, &config.right}) {
-    camera->device = readDevice(private_handle, camera->name);
-    camera->controls = readControls(private_handle, camera->name);
-  }
-  if (config.left.device == config.right.device) {
-    throw ParameterError("~left/device and ~right/device are both " + config.left.device +
-                         ": a stereo camera needs two");
-  }
-  return config;
+CaptureSetup readSetup(const ros::NodeHandle& private_handle) {
+  CaptureSetup setup;
+  setup.read({ros_io::fileSource(private_handle, "config"),
+              ros_io::rigSource(private_handle, ros_io::rig_sections::kCameras),
+              ros_io::serverSource(private_handle, kForeignParameters)});
+  return setup;
 }
 
 void writeLog(capture::Severity severity, const std::string& text) {
@@ -88,19 +42,19 @@ ros::Time toRosTime(std::int64_t nanoseconds) {
 StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle),
       private_handle_(private_handle),
-      params_(readParams(private_handle_)),
-      frame_id_(private_handle_.param<std::string>("frame_id", ros_io::frames::kLeftOptical)),
-      left_publisher_(ros::NodeHandle(handle_, "camera/left"), "left",
-                      private_handle_.param<std::string>("left/camera_info_url", ""), frame_id_),
-      right_publisher_(ros::NodeHandle(handle_, "camera/right"), "right",
-                       private_handle_.param<std::string>("right/camera_info_url", ""), frame_id_),
+      setup_(readSetup(private_handle_)),
+      params_(setup_.params.capture),
+      frame_id_(setup_.params.frame_id),
+      left_publisher_(ros::NodeHandle(handle_, "camera/left"), "left", setup_.params.left.calibration,
+                      frame_id_),
+      right_publisher_(ros::NodeHandle(handle_, "camera/right"), "right", setup_.params.right.calibration,
+                       frame_id_),
       sync_publisher_(handle_.advertise<StereoSync>(ros_io::topics::kSync, 10)),
       clock_([] { return capture::linuxKernel().monotonicNow(); },
              [] { return capture::linuxKernel().realtimeNow(); }),
       problems_(kRepeat_s),
       camera_(std::make_unique<capture::StereoCamera>(
-          readConfig(private_handle_, params_), capture::linuxKernel(),
-          capture::DeviceFinder(capture::linuxKernel()),
+          setup_.toConfig(), capture::linuxKernel(), capture::DeviceFinder(capture::linuxKernel()),
           [this](capture::StereoImages images) { publish(std::move(images)); }, writeLog)) {
   if (ros::Time::isSimTime()) {
     ROS_ERROR(
@@ -115,9 +69,11 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
   };
   sources.wanted_rate_hz = params_.rate_hz;
   diagnostics_ = std::make_unique<CaptureDiagnostics>(handle_, private_handle_, sources);
-  if (private_handle_.param("load_image_proc", true)) {
-    image_proc_ = std::make_unique<ImageProcLoader>(params_.stamps == capture::CaptureParams::Stamps::Common);
+  if (setup_.params.load_image_proc) {
+    image_proc_ = std::make_unique<ImageProcLoader>(params_.stamps == capture::CaptureParams::Stamps::Common,
+                                                    readDisparityParams(private_handle_));
   }
+  ros_io::writeParameters(private_handle_, setup_.params);
   // Calls back at once with the parameters as they are.
   reconfigure_server_ = std::make_unique<dynamic_reconfigure::Server<StereoCaptureConfig>>(private_handle_);
   reconfigure_server_->setCallback(

@@ -18,14 +18,16 @@ constexpr unsigned int kTicksPerReport = 4;
 
 VisualOdometryParams readNodeParams(const ros::NodeHandle& private_handle) {
   VisualOdometryParams params;
-  ros_io::readParameters(private_handle, kForeignParameters, params);
+  ros_io::readParameters({ros_io::serverSource(private_handle, kForeignParameters)}, params);
   params.waiting.wait_for_imu = params.imu != VisualOdometryParams::Imu::kNone;
   return params;
 }
 
 vo::OdometryConfig readOdometryConfig(const ros::NodeHandle& private_handle) {
   vo::OdometryConfig config;
-  ros_io::readParameters(ros::NodeHandle(private_handle, "vo"), {}, config);
+  ros_io::readParameters({ros_io::fileSource(private_handle, "config"),
+                          ros_io::serverSource(ros::NodeHandle(private_handle, "vo"))},
+                         config);
   return config;
 }
 
@@ -93,18 +95,42 @@ VisualOdometryNode::VisualOdometryNode(const ros::NodeHandle& handle, const ros:
       inbox_(params_.waiting),
       session_(params_, readOdometryConfig(private_handle_), lookupIn(tf_buffer_)),
       publisher_(handle_, params_),
+      disparity_view_(handle_),
       image_transport_(handle_) {
   monitor_ = std::make_unique<InputMonitor>(params_.input_timeout_s, watchedSeconds());
   worker_ = std::thread(&VisualOdometryNode::work, this);
   reset_service_ = handle_.advertiseService("vo/reset", &VisualOdometryNode::handleReset, this);
   set_pose_service_ = handle_.advertiseService("vo/set_pose", &VisualOdometryNode::handleSetPose, this);
   subscribe();
+  offerReconfiguration();
   timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s), &VisualOdometryNode::handleTimer, this);
 }
 
 VisualOdometryNode::~VisualOdometryNode() {
   inbox_.stop();
   worker_.join();
+}
+
+/// Both call back at once with the parameters as they are, which they take from the server.
+void VisualOdometryNode::offerReconfiguration() {
+  ros_io::writeParameters(private_handle_, params_);
+  reconfigure_server_ = std::make_unique<dynamic_reconfigure::Server<VisualOdometryConfig>>(private_handle_);
+  reconfigure_server_->setCallback([this](const VisualOdometryConfig& config, std::uint32_t) {
+    monitor_->setTimeout(config.input_timeout_s);
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    publisher_.setLive(config.publish_tf, config.path_spacing_m);
+  });
+  uncertainty_server_ = std::make_unique<dynamic_reconfigure::Server<UncertaintyConfig>>(
+      ros::NodeHandle(private_handle_, "uncertainty"));
+  uncertainty_server_->setCallback([this](const UncertaintyConfig& config, std::uint32_t) {
+    UncertaintyParams uncertainty;
+    uncertainty.min_translation_sigma_m = config.min_translation_sigma_m;
+    uncertainty.min_rotation_sigma_rad = config.min_rotation_sigma_rad;
+    uncertainty.lost_speed_m_s = config.lost_speed_m_s;
+    uncertainty.lost_turn_rate_rad_s = config.lost_turn_rate_rad_s;
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    session_.setUncertainty(uncertainty);
+  });
 }
 
 std::size_t VisualOdometryNode::watch(const std::string& topic, bool stamped, const std::string& remedy,

@@ -4,6 +4,7 @@
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "stereo_nav/nodes/master_watch.h"
 #include "stereo_nav/nodes/visual_odometry_node.h"
 
 namespace stereo_nav::nodes {
@@ -12,6 +13,7 @@ class VisualOdometryNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
+      master_ = std::make_unique<MasterWatch>();
       node_ = std::make_unique<VisualOdometryNode>(getNodeHandle(), getPrivateNodeHandle(), getName());
     } catch (const std::exception& error) {
       NODELET_FATAL_STREAM(error.what());
@@ -19,6 +21,7 @@ class VisualOdometryNodelet : public nodelet::Nodelet {
     }
   }
 
+  std::unique_ptr<MasterWatch> master_;  ///< the manager does not look by itself
   std::unique_ptr<VisualOdometryNode> node_;
 };
 

@@ -1,6 +1,48 @@
 #include "stereo_nav/ros_io/parameter_server.h"
 
+#include "stereo_nav/ros_io/rig.h"
+
 namespace stereo_nav::ros_io {
+namespace {
+
+/// Sections become namespaces.
+class ServerWriter : public ParameterVisitor {
+ public:
+  explicit ServerWriter(const ros::NodeHandle& handle) : handles_{handle} {}
+
+  void flag(const std::string& name, bool& value, const std::string&) override { set(name, value); }
+  void integer(const std::string& name, int& value, Range<int>, const std::string&,
+               const std::string&) override {
+    set(name, value);
+  }
+  void real(const std::string& name, double& value, Range<double>, const std::string&,
+            const std::string&) override {
+    set(name, value);
+  }
+  void text(const std::string& name, std::string& value, const std::string&) override { set(name, value); }
+  void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
+              const std::string&) override {
+    set(name, names[index]);
+  }
+  void enterSection(const std::string& name) override { handles_.emplace_back(handles_.back(), name); }
+  void leaveSection() override { handles_.pop_back(); }
+
+ private:
+  template <class T>
+  void set(const std::string& name, const T& value) {
+    handles_.back().setParam(name, value);
+  }
+
+  std::vector<ros::NodeHandle> handles_;
+};
+
+const std::string kRigPath = "rig";
+
+std::string pathIn(const ros::NodeHandle& private_handle, const std::string& name) {
+  return private_handle.param<std::string>(name, "");
+}
+
+}  // namespace
 
 YAML::Node toYaml(const XmlRpc::XmlRpcValue& value) {
   XmlRpc::XmlRpcValue readable = value;  // XmlRpcValue's conversions are not const
@@ -38,6 +80,33 @@ YAML::Node parameterTree(const ros::NodeHandle& handle, const std::set<std::stri
   YAML::Node tree = toYaml(value);
   for (const auto& name : except) tree.remove(name);
   return tree;
+}
+
+namespace internal {
+
+void writeParameters(const ros::NodeHandle& handle, const std::function<void(ParameterVisitor&)>& describe) {
+  ServerWriter writer(handle);
+  describe(writer);
+}
+
+}  // namespace internal
+
+ParameterSource fileSource(const ros::NodeHandle& private_handle, const std::string& name) {
+  const std::string path = pathIn(private_handle, name);
+  if (path.empty()) return {};
+  return {loadYamlFile(path), path};
+}
+
+ParameterSource rigSource(const ros::NodeHandle& private_handle, const std::string& section) {
+  const std::string path = pathIn(private_handle, kRigPath);
+  if (path.empty()) return {};
+  return {loadRigSection(path, section), rigSectionName(path, section)};
+}
+
+ParameterSource serverSource(const ros::NodeHandle& handle, const std::set<std::string>& except) {
+  std::set<std::string> others = except;
+  others.insert({"config", kRigPath});
+  return {parameterTree(handle, others), handle.getNamespace()};
 }
 
 }  // namespace stereo_nav::ros_io

@@ -32,8 +32,9 @@ geometry_msgs::TransformStamped transform(const ros::Time& stamp, const char* ch
 
 }  // namespace
 
-SimulatedMessages::SimulatedMessages(const sim::Simulation& simulation, const ros::Time& start)
-    : simulation_(simulation), start_(start) {}
+SimulatedMessages::SimulatedMessages(const sim::Simulation& simulation, const ros::Time& start,
+                                     const Eigen::Isometry3d& T_base_imu)
+    : simulation_(simulation), start_(start), T_base_imu_(T_base_imu) {}
 
 sensor_msgs::CameraInfo SimulatedMessages::info(sim::Side side, const std_msgs::Header& header) const {
   const sim::CameraCalibration& calibration = simulation_.calibration(side);
@@ -105,17 +106,17 @@ sensor_msgs::Imu SimulatedMessages::imu(std::size_t index) const {
   message.header.frame_id = frames::kImu;
   message.orientation.w = 1.0;
   if (sample.q_world_imu) {
-    message.orientation = tf2::toMsg(*sample.q_world_imu);
+    message.orientation = tf2::toMsg(*sample.q_world_imu * Eigen::Quaterniond(T_base_imu_.linear()));
   } else {
     message.orientation_covariance[0] = -1.0;  // sensor_msgs/Imu: no such measurement
   }
   if (sample.angular_velocity) {
-    message.angular_velocity = toMessage(*sample.angular_velocity);
+    message.angular_velocity = toMessage(T_base_imu_.linear().transpose() * *sample.angular_velocity);
   } else {
     message.angular_velocity_covariance[0] = -1.0;
   }
   if (sample.linear_acceleration) {
-    message.linear_acceleration = toMessage(*sample.linear_acceleration);
+    message.linear_acceleration = toMessage(T_base_imu_.linear().transpose() * *sample.linear_acceleration);
   } else {
     message.linear_acceleration_covariance[0] = -1.0;
   }
@@ -147,7 +148,7 @@ tf2_msgs::TFMessage SimulatedMessages::staticTransforms() const {
   tf2_msgs::TFMessage message;
   message.transforms = {transform(start_, frames::kLeftOptical, T_base_left),
                         transform(start_, "camera_right_optical", T_base_left * right),
-                        transform(start_, frames::kImu, Eigen::Isometry3d::Identity())};
+                        transform(start_, frames::kImu, T_base_imu_)};
   return message;
 }
 

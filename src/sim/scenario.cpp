@@ -61,7 +61,10 @@ void RigParams::describe(ParameterVisitor& visitor) {
   visitor.real("camera_x_m", camera_x_m, {-5.0, 5.0}, "m", "left camera, forward of base_link");
   visitor.real("camera_y_m", camera_y_m, {-5.0, 5.0}, "m", "left camera, left of base_link");
   visitor.real("camera_z_m", camera_z_m, {0.01, 5.0}, "m", "left camera, above the floor");
-  visitor.real("camera_pitch_deg", camera_pitch_deg, {-90.0, 90.0}, "deg", "cameras look down by this");
+  visitor.real("camera_roll_deg", camera_roll_deg, {-360.0, 360.0}, "deg",
+               "cameras lean to the right by this");
+  visitor.real("camera_pitch_deg", camera_pitch_deg, {-360.0, 360.0}, "deg", "cameras look down by this");
+  visitor.real("camera_yaw_deg", camera_yaw_deg, {-360.0, 360.0}, "deg", "cameras look to the left by this");
 }
 
 Eigen::Isometry3d RigParams::T_base_camera() const {
@@ -69,8 +72,10 @@ Eigen::Isometry3d RigParams::T_base_camera() const {
   R_forward_optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation() << camera_x_m, camera_y_m, camera_z_m;
-  T.linear() =
-      Eigen::AngleAxisd(camera_pitch_deg * M_PI / 180.0, Eigen::Vector3d::UnitY()) * R_forward_optical;
+  const double rad = M_PI / 180.0;
+  T.linear() = Eigen::AngleAxisd(camera_yaw_deg * rad, Eigen::Vector3d::UnitZ()) *
+               Eigen::AngleAxisd(camera_pitch_deg * rad, Eigen::Vector3d::UnitY()) *
+               Eigen::AngleAxisd(camera_roll_deg * rad, Eigen::Vector3d::UnitX()) * R_forward_optical;
   return T;
 }
 

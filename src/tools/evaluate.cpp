@@ -55,6 +55,7 @@ void writeResults(const EvaluateOptions& options, const EvaluationRun& run) {
   eval::writeFileAtomically(folder + "trajectory.tum", eval::toTum(eval::estimatedTrajectory(run.input)));
   eval::writeFileAtomically(folder + "trajectory.kitti", eval::toKitti(eval::cameraTrajectory(run.input)));
   eval::writeFileAtomically(folder + "summary.json", eval::toJson(evaluation.summary));
+  eval::writeFileAtomically(folder + "frames.csv", eval::toCsv(evaluation.frames));
   eval::writeFileAtomically(folder + "timing.json", eval::toJson(timing));
   const auto warning = eval::writeReport(options.output, evaluation, run.input, timing);
   printSummary(evaluation.summary, timing, run.unpaired_images);

@@ -31,6 +31,10 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("help,h", "this text")  //
       ("config", po::value<std::string>()->default_value("vo.yaml"),
        "parameters of the odometry: a path, or a file of the package's config folder")  //
+      ("disparity-config", po::value<std::string>()->default_value("disparity.yaml"),
+       "parameters of the disparity map, where the odometry uses one; found likewise")  //
+      ("disparity-from", po::value<std::string>(),
+       "bag whose camera/disparity is taken instead of a map of our own, e.g. BAG itself")  //
       ("ground-truth", po::value<std::string>(),
        "TUM trajectory file, or topic in the bag (default: ground_truth/odom if the bag has it)")  //
       ("ground-truth-frame", po::value<std::string>(),
@@ -44,6 +48,9 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
   if (values.count("bag") == 0) throw ros_io::InputError("no BAG given; see evaluate --help");
   options.bag = values["bag"].as<std::string>();
   options.config = configFile(values["config"].as<std::string>());
+  options.disparity_config = configFile(values["disparity-config"].as<std::string>());
+  if (values.count("disparity-from") != 0)
+    options.disparity_from = values["disparity-from"].as<std::string>();
   if (values.count("ground-truth") != 0) options.ground_truth = values["ground-truth"].as<std::string>();
   if (values.count("ground-truth-frame") != 0) {
     options.ground_truth_frame = values["ground-truth-frame"].as<std::string>();

@@ -9,7 +9,9 @@ namespace stereo_nav::tools {
 
 struct EvaluateOptions {
   std::string bag;
-  std::string config;  ///< path of the odometry's parameter file
+  std::string config;                         ///< path of the odometry's parameter file
+  std::string disparity_config;               ///< path of the disparity map's parameter file
+  std::optional<std::string> disparity_from;  ///< bag whose camera/disparity is taken; absent: computed
   std::optional<std::string>
       ground_truth;  ///< TUM file or topic; absent: ground_truth/odom if the bag has it
   std::optional<std::string> ground_truth_frame;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "package_files.h"
+#include "recorded_disparity.h"
 #include "stereo_nav/ros_io/stereo_processing.h"
 #include "stereo_nav/ros_io/topics.h"
 #include "stereo_nav/vo/base_pose.h"
@@ -61,12 +62,15 @@ eval::Trajectory groundTruthOfBase(const EvaluateOptions& options, const ros_io:
 class Run {
  public:
   Run(const ros_io::Recording& recording, const ros_io::StereoProcessing& processing,
-      vo::OdometryConfig config, const Eigen::Isometry3d& T_base_camera, const Eigen::Matrix3d& R_camera_imu)
+      vo::OdometryConfig config, const std::optional<std::string>& disparity_bag,
+      const Eigen::Isometry3d& T_base_camera, const Eigen::Matrix3d& R_camera_imu)
       : recording_(recording),
         processing_(processing),
         config_(std::move(config)),
         T_base_camera_(T_base_camera),
-        odometry_(vo::makeOdometry(config_, processing.calibration(), R_camera_imu)) {}
+        odometry_(vo::makeOdometry(config_, processing.calibration(), R_camera_imu)) {
+    if (disparity_bag && odometry_->usesDisparityMap()) recorded_disparity_.emplace(*disparity_bag);
+  }
 
   eval::FrameRecord handle(const ros_io::RawPair& pair) {
     vo::StereoFrame frame;
@@ -100,7 +104,8 @@ class Run {
   /// `latest` is what the thesis' program gets: the map of the frame before, since this one's is still being
   /// computed.
   cv::Mat disparityFor(const vo::StereoFrame& frame) {
-    cv::Mat matched = processing_.disparity(frame.left, frame.right);
+    cv::Mat matched = recorded_disparity_ ? recorded_disparity_->at(frame.left_time_s)
+                                          : processing_.disparity(frame.left, frame.right);
     if (config_.thesis.disparity == vo::ThesisParams::Disparity::kMatched) return matched;
     std::swap(matched, previous_disparity_);
     return matched;
@@ -123,6 +128,7 @@ class Run {
   Eigen::Isometry3d T_base_camera_;
   std::unique_ptr<vo::Odometry> odometry_;
   std::size_t next_imu_ = 0;
+  std::optional<RecordedDisparity> recorded_disparity_;
   cv::Mat previous_disparity_;
 };
 
@@ -139,8 +145,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
                             const std::function<void(std::size_t, std::size_t)>& progress) {
   const vo::OdometryConfig config = vo::loadOdometryConfig(options.config);
   ros_io::DisparityParams disparity;
-  const std::string disparity_file = configFile("disparity.yaml");
-  readParameters(loadYamlFile(disparity_file), disparity_file, disparity);
+  readParameters(loadYamlFile(options.disparity_config), options.disparity_config, disparity);
 
   const ros_io::Recording recording(options.bag, options.part);
   const ros_io::StereoProcessing processing(recording.leftInfo(), recording.rightInfo(), disparity);
@@ -156,7 +161,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.ground_truth = groundTruthOfBase(options, recording);
 
   for (int repetition = 0; repetition < options.repeat; ++repetition) {
-    Run pass(recording, processing, config, T_base_camera, R_camera_imu);
+    Run pass(recording, processing, config, options.disparity_from, T_base_camera, R_camera_imu);
     std::vector<eval::FrameRecord> frames;
     recording.forEachPair([&](const ros_io::RawPair& pair) {
       frames.push_back(pass.handle(pair));

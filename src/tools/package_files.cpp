@@ -9,7 +9,7 @@
 namespace stereo_nav::tools {
 
 std::string configFile(const std::string& name) {
-  if (std::filesystem::exists(name)) return name;
+  if (std::filesystem::is_regular_file(name)) return name;
   const std::string package = ros::package::getPath("stereo_nav");
   if (package.empty()) {
     throw ros_io::InputError(
@@ -22,7 +22,7 @@ std::string configFile(const std::string& name) {
 }
 
 std::string scenarioFile(const std::string& name) {
-  if (std::filesystem::exists(name)) return name;
+  if (std::filesystem::is_regular_file(name)) return name;
   return configFile("scenarios/" + name + ".yaml");
 }
 

@@ -129,21 +129,23 @@ std::vector<cv::Point2f> GridCornerDetector::detect(const cv::Mat& image,
     ++population[static_cast<std::size_t>(row * columns_ + column)];
     taken.add(px);
   }
+  // Empty cells first; the fuller ones are looked at only when those do not suffice.
   std::vector<Candidate> candidates;
-  for (std::size_t cell = 0; cell < population.size(); ++cell) {
-    if (population[cell] < kPerCell) {
-      detectCell(image, static_cast<int>(cell), population[cell], candidates);
+  for (int rank = 0; rank < kPerCell && wanted > 0; ++rank) {
+    for (std::size_t cell = 0; cell < population.size(); ++cell) {
+      if (population[cell] == rank) detectCell(image, static_cast<int>(cell), rank, candidates);
     }
-  }
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.rank != b.rank ? a.rank < b.rank : a.response > b.response;
-  });
-  for (const Candidate& candidate : candidates) {
-    if (wanted == 0) break;
-    if (taken.contains(candidate.px)) continue;
-    taken.add(candidate.px);
-    found.push_back(candidate.px);
-    --wanted;
+    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+      return a.rank != b.rank ? a.rank < b.rank : a.response > b.response;
+    });
+    auto next = candidates.begin();
+    for (; next != candidates.end() && next->rank == rank && wanted > 0; ++next) {
+      if (taken.contains(next->px)) continue;
+      taken.add(next->px);
+      found.push_back(next->px);
+      --wanted;
+    }
+    candidates.erase(candidates.begin(), next);
   }
   return found;
 }

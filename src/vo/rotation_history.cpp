@@ -33,7 +33,7 @@ bool RotationHistory::add(const ImuSample& sample) {
   if (!samples_.empty() && sample.time_s <= samples_.back().time_s) return false;
   samples_.push_back(sample);
   if (samples_.back().q_world_imu) samples_.back().q_world_imu->normalize();
-  while (samples_.front().time_s < sample.time_s - kHistory_s) samples_.pop_front();
+  while (samples_.front().time_s < sample.time_s - history_s_) samples_.pop_front();
   return true;
 }
 

@@ -87,6 +87,7 @@ void StereoOdometry::reset() {
   last_view_ = StereoView();
   twist_.reset();
   failures_ = 0;
+  movers_fill_view_ = false;
   stereo_.epipolarError().reset();
 }
 
@@ -108,7 +109,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
     startAt(images, last_view_.T_camera_world, result);
   } else if (!followOrSearch(images, result)) {
     result.state = State::kLost;
-    if (!isBlank(images, result)) ++failures_;
+    if (!isBlank(images, result) && !waitsForMovers(images)) ++failures_;
     if (failures_ > params_.max_coasting_frames) startAt(images, turnedSinceLast(images), result);
   }
   result.T_start_camera = last_view_.T_camera_world.inverse();
@@ -129,6 +130,7 @@ void StereoOdometry::startAt(const Images& images, const Eigen::Isometry3d& T_ca
   first.skewed = images.skew_s() != 0.0;
   first.late_sigma.setConstant(kFirstTwistSigma * std::abs(images.skew_s()));
   twist_.reset();
+  movers_fill_view_ = false;
   last_left_time_s_ = images.left_time_s;
   last_skew_s_ = images.skew_s();
   last_interval_s_ = 0.0;
@@ -200,15 +202,12 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   if (estimate.converged && isThin(estimate) && recover(images, estimate.view) > 0) {
     estimate = estimatePose(foundTracks(), prior, estimate.view);
   }
-  clock.lap("estimate");
-  if (!estimate.converged || estimate.inliers < static_cast<std::size_t>(params_.min_inliers)) {
-    std::ostringstream message;
-    message << "only " << estimate.inliers << " of " << result.features_tracked
-            << " tracked features agree with one motion, " << params_.min_inliers
-            << " needed: dark, blocked, without texture, moved too far, or moving objects fill the view";
-    result.reason = message.str();
-    return false;
+  if (isCarriedAway(estimate, prior)) {
+    movers_fill_view_ = true;
+    estimate = estimatePose(tracksNear(predicted), prior, predicted);
   }
+  clock.lap("estimate");
+  if (!isAcceptable(estimate, prior, result)) return false;
   if (failures_ > 0) last_is_keyframe_ = false;
   failures_ = 0;
   const Eigen::Isometry3d T_world_last = last_view_.T_camera_world.inverse();
@@ -246,6 +245,25 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   }
   clock.lap("keyframe");
   return true;
+}
+
+bool StereoOdometry::isAcceptable(const PoseEstimate& estimate, const MotionPrior& prior,
+                                  FrameResult& result) {
+  if (isCarriedAway(estimate, prior)) {
+    for (Track& track : tracks_) track.inlier = false;
+    result.reason =
+        "most of what is seen moves as no robot could have begun to within a frame: something that moves on "
+        "its "
+        "own fills the view; the features seen before are waited for";
+    return false;
+  }
+  if (estimate.converged && estimate.inliers >= static_cast<std::size_t>(params_.min_inliers)) return true;
+  std::ostringstream message;
+  message << "only " << estimate.inliers << " of " << result.features_tracked
+          << " tracked features agree with one motion, " << params_.min_inliers
+          << " needed: dark, blocked, without texture, moved too far, or moving objects fill the view";
+  result.reason = message.str();
+  return false;
 }
 
 void StereoOdometry::report(FrameResult& result) const {

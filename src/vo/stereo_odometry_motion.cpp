@@ -68,6 +68,31 @@ bool StereoOdometry::isThin(const PoseEstimate& estimate) const {
   return static_cast<double>(estimate.inliers) < kThinShare * static_cast<double>(alive);
 }
 
+bool StereoOdometry::isCarriedAway(const PoseEstimate& estimate, const MotionPrior& prior) const {
+  constexpr double kSigmas = 5.0;
+  if (!estimate.converged || estimate.inliers < static_cast<std::size_t>(params_.min_inliers)) return false;
+  if (last_interval_s_ == 0.0) return false;
+  const Eigen::Isometry3d T_camera_last = estimate.view.T_camera_world * prior.T_previous_world.inverse();
+  const Vector6d change =
+      logMotion(T_camera_last) / prior.interval_s - logMotion(T_last_before_) / last_interval_s_;
+  const double time_s = 0.5 * (prior.interval_s + last_interval_s_);
+  return change.head<3>().norm() > kSigmas * std::sqrt(params_.acceleration_density * time_s);
+}
+
+bool StereoOdometry::waitsForMovers(const Images& images) const {
+  constexpr double kPatience_s = 1.0;
+  return movers_fill_view_ && images.left_time_s - last_left_time_s_ < kPatience_s;
+}
+
+std::vector<std::size_t> StereoOdometry::tracksNear(const StereoView& view) const {
+  std::vector<std::size_t> near;
+  for (const std::size_t i : foundTracks()) {
+    if ((predictedPixel(i, view) - tracks_[i].seen.left_px).norm() <= params_.motion.max_error_px)
+      near.push_back(i);
+  }
+  return near;
+}
+
 PoseEstimate StereoOdometry::estimateFrom(const std::vector<std::size_t>& tracks, const MotionPrior& prior,
                                           const StereoView& guess) const {
   std::vector<MapObservation> observations;

@@ -1,71 +1,23 @@
 // Time per stage and per frame of the stereo odometry, and the floor that OpenCV sets for the same work:
-//   taskset -c 1 build/devel/lib/stereo_nav/stereo_nav_bench
+//   taskset -c 1 build/devel/lib/stereo_nav/vo_bench_test
 // Images are synthetic noise, moved from frame to frame: nothing to download, and every size alike.
 #include <benchmark/benchmark.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
-#include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "panned_wall.h"
 #include "stereo_nav/vo/stereo_odometry.h"
 
 namespace {
 
+using namespace stereo_nav;
 using namespace stereo_nav::vo;
 
-constexpr double kDisparity_px = 12.0;
-constexpr int kSteps = 40;
-
-/// Noise of several octaves, wide enough to pan over it.
-cv::Mat makeTexture(const cv::Size& size) {
-  cv::RNG random(7);
-  cv::Mat sum(size, CV_32FC1, cv::Scalar(0));
-  for (const int octave : {2, 4, 8, 16}) {
-    cv::Mat noise(size.height / octave + 1, size.width / octave + 1, CV_32FC1);
-    random.fill(noise, cv::RNG::NORMAL, 0.0, 30.0);
-    cv::resize(noise, noise, size, 0, 0, cv::INTER_CUBIC);
-    sum += noise;
-  }
-  cv::Mat image;
-  sum.convertTo(image, CV_8UC1, 0.7, 128.0);
-  return image;
-}
-
 StereoCalibration calibrationOf(const benchmark::State& state) {
-  StereoCalibration calibration;
-  calibration.width = static_cast<int>(state.range(0));
-  calibration.height = static_cast<int>(state.range(1));
-  calibration.fx = calibration.fy = 0.6 * calibration.width;
-  calibration.cx = calibration.right_cx = 0.5 * calibration.width;
-  calibration.cy = 0.5 * calibration.height;
-  calibration.baseline_m = 0.12;
-  return calibration;
+  return bench::wallCamera({static_cast<int>(state.range(0)), static_cast<int>(state.range(1))});
 }
-
-/// A wall that is passed sideways, back and forth.
-class Pan {
- public:
-  explicit Pan(const StereoCalibration& calibration)
-      : size_(calibration.width, calibration.height),
-        texture_(makeTexture({calibration.width + 400, calibration.height})) {}
-
-  StereoFrame next() {
-    const int step = frame_ % (2 * kSteps);
-    const int x = 3 * (step < kSteps ? step : 2 * kSteps - step);
-    StereoFrame frame;
-    frame.left_time_s = frame.right_time_s = 0.05 * frame_++;
-    frame.left = texture_(cv::Rect(x, 0, size_.width, size_.height)).clone();
-    frame.right =
-        texture_(cv::Rect(x + static_cast<int>(kDisparity_px), 0, size_.width, size_.height)).clone();
-    return frame;
-  }
-
- private:
-  cv::Size size_;
-  cv::Mat texture_;
-  int frame_ = 0;
-};
 
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->Args({320, 240})
@@ -82,12 +34,12 @@ void wholeFrame(benchmark::State& state, int features) {
   params.corners.features = features;
   params.corners.cells = features * 3 / 2;
   StereoOdometry odometry(params, calibration, Eigen::Matrix3d::Identity());
-  Pan pan(calibration);
+  bench::PannedWall wall(calibration);
   double inliers = 0.0;
-  for (int i = 0; i < 5; ++i) odometry.process(pan.next());
+  for (int i = 0; i < 5; ++i) odometry.process(wall.next());
   for (auto _ : state) {
     state.PauseTiming();
-    const StereoFrame frame = pan.next();
+    const StereoFrame frame = wall.next();
     state.ResumeTiming();
     inliers += odometry.process(frame).inliers;
   }
@@ -102,9 +54,9 @@ void opencvFloor(benchmark::State& state) {
   cv::setNumThreads(1);
   const StereoCalibration calibration = calibrationOf(state);
   const PatchTrackerParams params;
-  Pan pan(calibration);
-  const StereoFrame before = pan.next();
-  const StereoFrame now = pan.next();
+  bench::PannedWall wall(calibration);
+  const StereoFrame before = wall.next();
+  const StereoFrame now = wall.next();
   std::vector<cv::Point2f> points;
   for (const cv::Point2f& px :
        GridCornerDetector(GridCornerDetectorParams(), before.left.size()).detect(before.left, {})) {
@@ -135,14 +87,14 @@ BENCHMARK(opencvFloor)->Apply(sizes);
 
 void pyramid(benchmark::State& state) {
   cv::setNumThreads(1);
-  const StereoFrame frame = Pan(calibrationOf(state)).next();
+  const StereoFrame frame = bench::PannedWall(calibrationOf(state)).next();
   for (auto _ : state) benchmark::DoNotOptimize(ImagePyramid(frame.left, 4));
 }
 BENCHMARK(pyramid)->Apply(sizes);
 
 void detect(benchmark::State& state) {
   cv::setNumThreads(1);
-  const StereoFrame frame = Pan(calibrationOf(state)).next();
+  const StereoFrame frame = bench::PannedWall(calibrationOf(state)).next();
   GridCornerDetector detector(GridCornerDetectorParams(), frame.left.size());
   for (auto _ : state) benchmark::DoNotOptimize(detector.detect(frame.left, {}));
 }
@@ -151,7 +103,7 @@ BENCHMARK(detect)->Apply(sizes);
 void stereoSearch(benchmark::State& state) {
   cv::setNumThreads(1);
   const StereoCalibration calibration = calibrationOf(state);
-  const StereoFrame frame = Pan(calibration).next();
+  const StereoFrame frame = bench::PannedWall(calibration).next();
   const ImagePyramid left(frame.left, 4);
   const ImagePyramid right(frame.right, 4);
   const auto corners =

@@ -15,7 +15,6 @@
 namespace stereo_nav::test {
 namespace {
 
-constexpr std::size_t kFrames = 40;   // of the recording
 constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
 
 /// Ground truth at the stamp of an estimate; the recording has it at every image's.
@@ -54,6 +53,7 @@ class Replay : public testing::Test {
  protected:
   const ros::NodeHandle parameters_{"~"};
   const double tolerance_m_ = parameters_.param("tolerance_m", 0.0);
+  const std::size_t frames_ = static_cast<std::size_t>(parameters_.param("frames", 0));
   GraphProbe probe_;
 };
 
@@ -62,7 +62,7 @@ TEST_F(Replay, EveryFrameBecomesOdometryNearTheGroundTruth) {
   const tf2_ros::TransformListener listener(buffer);
   ASSERT_TRUE(probe_.waitUntil([&] { return !probe_.odometry.empty(); }, kLongWait_s))
       << "no odometry at all";
-  ASSERT_TRUE(probe_.waitUntil([&] { return probe_.odometry.size() >= kFrames; }, kLongWait_s))
+  ASSERT_TRUE(probe_.waitUntil([&] { return probe_.odometry.size() >= frames_; }, kLongWait_s))
       << "stamps of the frames: " << stampsOf(probe_.odometry);
 
   const nav_msgs::Odometry& last = probe_.odometry.back();
@@ -74,11 +74,11 @@ TEST_F(Replay, EveryFrameBecomesOdometryNearTheGroundTruth) {
   EXPECT_GT(last.twist.covariance[0], 0.0);
   EXPECT_GT(last.pose.covariance[0], probe_.odometry.front().pose.covariance[0]) << "uncertainty grows";
 
-  ASSERT_TRUE(probe_.waitUntil([&] { return probe_.status.size() >= kFrames; }, kLongWait_s));
-  EXPECT_EQ(probe_.status.back().frames, kFrames);
+  ASSERT_TRUE(probe_.waitUntil([&] { return probe_.status.size() >= frames_; }, kLongWait_s));
+  EXPECT_EQ(probe_.status.back().frames, frames_);
   EXPECT_EQ(probe_.status.back().frames_dropped, 0u);
   EXPECT_EQ(probe_.status.back().frames_lost, 0u);
-  for (std::size_t i = 1; i < kFrames; ++i) {
+  for (std::size_t i = 1; i < frames_; ++i) {
     EXPECT_EQ(probe_.status[i].state, VoStatus::TRACKING) << probe_.status[i].reason;
     EXPECT_NEAR((probe_.odometry[i].header.stamp - probe_.odometry[i - 1].header.stamp).toSec(), 0.1, 1e-3);
   }

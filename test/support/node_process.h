@@ -28,13 +28,30 @@ class NodeProcess {
   int stop() {
     if (pid_ <= 0) return status_;
     kill(pid_, SIGINT);
-    int status = 0;
-    waitpid(pid_, &status, 0);
-    pid_ = 0;
-    return status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+    wait(0);
+    return status_;
+  }
+
+  /// Waits until it ends by itself; the same.
+  int join() {
+    if (pid_ > 0) wait(0);
+    return status_;
+  }
+
+  /// Whether it has ended by itself.
+  bool ended() {
+    if (pid_ > 0) wait(WNOHANG);
+    return pid_ <= 0;
   }
 
  private:
+  void wait(int options) {
+    int status = 0;
+    if (waitpid(pid_, &status, options) == 0) return;
+    pid_ = 0;
+    status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  }
+
   pid_t pid_;
   int status_ = 0;
 };

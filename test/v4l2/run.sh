@@ -6,23 +6,13 @@ set -euo pipefail
 seconds=$1 result=$2
 shift 2
 folder=$(dirname "${BASH_SOURCE[0]}")
-name=$(basename "$result" .xml)
+source "$folder/../support/junit.sh"
 mkdir -p "$(dirname "$result")"
 rm -f "$result"
 
-# single_case OUTCOME MESSAGE: a JUnit file with one case.
-single_case() {
-  cat >"$result" <<XML
-<?xml version="1.0" encoding="UTF-8"?>
-<testsuites tests="1"><testsuite name="v4l2" tests="1">
-  <testcase classname="v4l2" name="$name"><$1 message="$2"/></testcase>
-</testsuite></testsuites>
-XML
-}
-
 if ! reason=$("$folder/vm.sh" --check); then
   echo "$reason"
-  single_case skipped "$reason"
+  single_case "$result" v4l2 skipped "$reason"
   exit 0
 fi
 out=$(mktemp -d)
@@ -33,6 +23,6 @@ GTEST_OUTPUT=xml:/vm-out/result.xml
 if [[ -s $out/result.xml ]]; then
   cp "$out/result.xml" "$result"
 else
-  single_case failure "the machine ended with status $status and no result"
+  single_case "$result" v4l2 failure "the machine ended with status $status and no result"
 fi
 exit "$status"

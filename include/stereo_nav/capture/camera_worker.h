@@ -25,6 +25,7 @@ namespace stereo_nav::capture {
 enum class Severity { Info, Warning, Error };
 using Log = std::function<void(Severity, const std::string&)>;
 
+/// What one camera is asked for.
 struct CameraConfig {
   std::string name;    ///< for messages: "left" or "right"
   std::string device;  ///< /dev/videoN, a link to one, or a bus_info

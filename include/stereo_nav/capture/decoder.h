@@ -13,6 +13,7 @@ namespace stereo_nav::capture {
 /// What the decoder makes: names as in ROS image encodings.
 enum class Encoding { Mono8, Bgr8 };
 
+/// As in ROS image messages: mono8 or bgr8.
 std::string encodingName(Encoding encoding);
 
 /// A decoded image, rows packed without padding (step = width * channels), so that its bytes can be moved

@@ -9,6 +9,7 @@ namespace stereo_nav::capture {
 
 enum class Side { Left, Right };
 
+/// "left" or "right", for messages and topics.
 inline const char* sideName(Side side) {
   return side == Side::Left ? "left" : "right";
 }

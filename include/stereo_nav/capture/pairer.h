@@ -9,6 +9,7 @@
 
 namespace stereo_nav::capture {
 
+/// Two frames that belong together; they may differ in time.
 struct FramePair {
   Frame left;
   Frame right;

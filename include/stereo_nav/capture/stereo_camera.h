@@ -11,6 +11,7 @@
 
 namespace stereo_nav::capture {
 
+/// What the two cameras are asked for, and how their frames pair (`max_skew_s`: largest time between them).
 struct StereoConfig {
   CameraConfig left;
   CameraConfig right;
@@ -25,6 +26,7 @@ struct StereoImages {
   double skew_rate = 0.0;           ///< s/s; NaN until known
 };
 
+/// A snapshot for diagnostics.
 struct StereoStatus {
   CameraStatus left;
   CameraStatus right;

@@ -21,6 +21,7 @@ struct Capabilities {
   bool captures_video = false;  ///< single-planar capture with streaming, which is what webcams have
 };
 
+/// What a driver is asked for; it may agree to something near.
 struct FormatRequest {
   PixelFormat format = PixelFormat::Any;
   int width = 640;

@@ -20,6 +20,7 @@ struct FrameRecord {
   FrameTiming timing;
 };
 
+/// All that the errors of a run are computed from.
 struct EvaluationInput {
   std::string input;                ///< as named on the command line; goes into the summary
   std::string config;               ///< likewise
@@ -70,6 +71,7 @@ struct FrameErrors {
   double rotation_error_deg = EvaluationSummary::kUnknown;  ///< first poses laid together
 };
 
+/// The errors of a run, as a whole and frame by frame.
 struct Evaluation {
   EvaluationSummary summary;
   std::vector<FrameErrors> frames;
@@ -88,5 +90,9 @@ Trajectory cameraTrajectory(const EvaluationInput& input);
 /// Text of summary.json: fixed order of the keys, numbers in the shortest form that reads back as the same
 /// double.
 std::string toJson(const EvaluationSummary& summary);
+
+/// Text of frames.csv: a line of names, then one line for each frame with the fields of FrameErrors; what is
+/// not known is left empty.
+std::string toCsv(const std::vector<FrameErrors>& frames);
 
 }  // namespace stereo_nav::eval

@@ -4,6 +4,7 @@
 
 namespace stereo_nav::imu {
 
+/// Deviation at one averaging time.
 struct AllanPoint {
   double tau_s;
   double deviation;  ///< in the unit of the samples

@@ -19,6 +19,7 @@ struct AngleCandidate {
   bool follows = false;          ///< the previous candidate ended right before this one
 };
 
+/// Since the start of the stream.
 struct AngleFramerCounters {
   std::uint64_t bytes = 0;
   std::uint64_t bytes_skipped = 0;  ///< passed over while looking for a header

@@ -26,6 +26,7 @@ struct AngleFrame {
   double arrival_s = 0.0;       ///< when that byte arrived
 };
 
+/// Since the start of the stream.
 struct AngleGateCounters {
   std::uint64_t delivered = 0;
   std::uint64_t implausible = 0;  ///< candidates refused because they fit neither their past nor their future

@@ -81,6 +81,7 @@ class AttitudeFilter {
   double last_time_s_ = 0.0;
 };
 
+/// The filter that `params.method` names.
 std::unique_ptr<AttitudeFilter> makeAttitudeFilter(const AttitudeParams& params);
 
 }  // namespace stereo_nav::imu

@@ -6,6 +6,7 @@
 
 namespace stereo_nav::imu {
 
+/// A module's angles at a time, s on any clock.
 struct AngleSample {
   double time_s = 0.0;
   ModuleAngles angles;
@@ -19,6 +20,7 @@ struct AngleDrift {
   double largest_deg = 0.0;    ///< largest distance from the mean of the first second
 };
 
+/// Of all three angles over the whole recording.
 struct DriftReport {
   double duration_s = 0.0;
   AngleDrift yaw, pitch, roll;

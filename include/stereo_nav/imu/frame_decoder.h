@@ -23,6 +23,7 @@ struct DecodedFrame {
   bool clock_restarted = false;    ///< the device clock missed an unknown time before this frame
 };
 
+/// Since the decoder was made.
 struct DecoderCounters {
   std::uint64_t bytes = 0;
   std::uint64_t bytes_skipped = 0;
@@ -47,6 +48,7 @@ class FrameDecoder {
   virtual double wireTime_s() const = 0;
 };
 
+/// `baud_rate` is that of the line, bits/s: it tells how long a frame is on the wire.
 std::unique_ptr<FrameDecoder> makeAngleDecoder(AngleOrder order, const AngleGateParams& gate, int baud_rate);
 std::unique_ptr<FrameDecoder> makeRawDecoder(int baud_rate);
 

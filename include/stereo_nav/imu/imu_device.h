@@ -34,6 +34,7 @@ struct ImuReading {
   std::optional<RawMeasurement> raw;
 };
 
+/// A snapshot for diagnostics. Jitters are standard deviations, see JitterMeter.
 struct ImuDeviceStatus {
   LinkState state = LinkState::kDisconnected;
   std::string message;  ///< what is seen, and when something is wrong the likely cause and the remedy

@@ -5,6 +5,7 @@
 
 namespace stereo_nav::imu {
 
+/// What can be said of the line to the module.
 enum class LinkState {
   kDisconnected,  ///< the port cannot be opened, or has gone
   kWaiting,       ///< opened, too early to say

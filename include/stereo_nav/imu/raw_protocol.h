@@ -17,11 +17,13 @@ struct RawMeasurement {
   std::optional<Eigen::Vector3d> magnetic_field;  ///< microtesla
 };
 
+/// A frame whose check sum is good.
 struct RawFrame {
   RawMeasurement measurement;
   std::uint64_t last_byte = 0;  ///< position in the stream of the frame's last byte, from 0
 };
 
+/// Since the start of the stream.
 struct RawParserCounters {
   std::uint64_t bytes = 0;
   std::uint64_t bytes_skipped = 0;  ///< outside of good frames

@@ -40,6 +40,9 @@ class BaseOdometry {
  public:
   BaseOdometry(const UncertaintyParams& params, const Eigen::Isometry3d& T_base_camera);
 
+  /// For the motions to come.
+  void setUncertainty(const UncertaintyParams& params) { params_ = params; }
+
   /// The odometry begins anew: its next first frame is taken at `T_odom_base`.
   void start(const Eigen::Isometry3d& T_odom_base, const vo::Matrix6d& pose_covariance);
   /// From now on the base is said to be at `T_odom_base`; motion goes on.

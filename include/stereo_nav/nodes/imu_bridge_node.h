@@ -1,6 +1,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <dynamic_reconfigure/server.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "stereo_nav/ImuBridgeConfig.h"
 #include "stereo_nav/imu/calibration.h"
 #include "stereo_nav/imu/imu_device.h"
 #include "stereo_nav/imu/imu_estimator.h"
@@ -45,6 +47,7 @@ class ImuBridgeNode {
   void run();
 
  private:
+  void reconfigure(const ImuBridgeConfig& config);
   void publish(const imu::ImuReading& reading);
   void publishAngles(const imu::ModuleAngles& angles);
   ros::Time rosTime(double steady_s);
@@ -64,7 +67,7 @@ class ImuBridgeNode {
   ros::WallTimer watch_timer_;
   ros::Time last_stamp_;
 
-  std::mutex mutex_;  ///< guards estimator and calibrator
+  std::mutex mutex_;  ///< guards estimator, calibrator and the standard deviations in params_
   std::condition_variable calibrated_;
   imu::ImuEstimator estimator_;
   std::optional<imu::GyroCalibrator> calibrator_;
@@ -72,6 +75,7 @@ class ImuBridgeNode {
   imu::LinkState reported_state_ = imu::LinkState::kWaiting;
   ros::WallTime reported_at_;
   imu::DecoderCounters reported_counters_;
+  dynamic_reconfigure::Server<ImuBridgeConfig> reconfigure_server_;
 };
 
 }  // namespace stereo_nav::nodes

@@ -27,6 +27,7 @@ class InputMonitor {
       : timeout_s_(timeout_s), last_frame_s_(now_s), start_s_(now_s) {}
 
   std::size_t add(Input input);
+  void setTimeout(double timeout_s) { timeout_s_ = timeout_s; }
   void received(std::size_t input, const ros::Time& stamp, double now_s);
   void frameCompleted(double now_s) { last_frame_s_ = now_s; }
 

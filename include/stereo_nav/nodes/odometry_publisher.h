@@ -29,6 +29,7 @@ class OdometryPublisher {
 
   void publish(const FrameMessages& frame, const SessionOutput& output, const FrameCounts& counts);
   void forgetPath() { path_.poses.clear(); }
+  void setLive(bool publish_tf, double path_spacing_m);
 
  private:
   void publishOdometry(const FrameMessages& frame, const BaseEstimate& base);
@@ -43,7 +44,6 @@ class OdometryPublisher {
   ros::Publisher features_publisher_;
   image_transport::ImageTransport image_transport_;
   image_transport::Publisher debug_publisher_;
-  image_transport::Publisher disparity_publisher_;
   tf2_ros::TransformBroadcaster tf_;
   nav_msgs::Path path_;
 };

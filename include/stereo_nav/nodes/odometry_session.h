@@ -54,6 +54,9 @@ class OdometrySession {
   /// jump back: a corrected clock must not move the robot, a bag that starts again begins at the origin.
   SessionOutput process(const Inbox::Work& work, const SensorSetup& setup, bool live);
 
+  /// For the frames to come.
+  void setUncertainty(const UncertaintyParams& uncertainty);
+
   /// Forgets everything but the mounting; the next frame is the origin.
   void reset();
   /// False while there is no odometry yet.

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "stereo_nav/StereoCaptureConfig.h"
-#include "stereo_nav/capture/capture_params.h"
 #include "stereo_nav/capture/clock_mapping.h"
 #include "stereo_nav/capture/stereo_camera.h"
 #include "stereo_nav/nodes/camera_publisher.h"
 #include "stereo_nav/nodes/capture_diagnostics.h"
+#include "stereo_nav/nodes/capture_setup.h"
 #include "stereo_nav/nodes/image_proc_loader.h"
 #include "stereo_nav/nodes/problem_list.h"
 
@@ -37,8 +37,9 @@ class StereoCaptureNode {
 
   ros::NodeHandle handle_;
   ros::NodeHandle private_handle_;
-  capture::CaptureParams params_;
-  std::string frame_id_;
+  CaptureSetup setup_;
+  const capture::CaptureParams& params_;  ///< of setup_
+  const std::string& frame_id_;           ///< of setup_
   CameraPublisher left_publisher_;
   CameraPublisher right_publisher_;
   ros::Publisher sync_publisher_;

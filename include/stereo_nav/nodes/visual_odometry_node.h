@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dynamic_reconfigure/server.h>
 #include <geometry_msgs/Quaternion.h>
 #include <image_transport/image_transport.h>
 #include <ros/ros.h>
@@ -14,6 +15,9 @@
 #include <thread>
 
 #include "stereo_nav/SetPose.h"
+#include "stereo_nav/UncertaintyConfig.h"
+#include "stereo_nav/VisualOdometryConfig.h"
+#include "stereo_nav/nodes/disparity_view.h"
 #include "stereo_nav/nodes/health.h"
 #include "stereo_nav/nodes/inbox.h"
 #include "stereo_nav/nodes/input_monitor.h"
@@ -32,6 +36,7 @@ class VisualOdometryNode {
   ~VisualOdometryNode();
 
  private:
+  void offerReconfiguration();
   void subscribe();
   void subscribeImu();
   std::size_t watch(const std::string& topic, bool stamped, const std::string& remedy,
@@ -86,11 +91,15 @@ class VisualOdometryNode {
   OdometrySession session_;
   OdometryPublisher publisher_;  ///< under session_mutex_
 
+  DisparityView disparity_view_;
   image_transport::ImageTransport image_transport_;
   image_transport::Subscriber left_subscriber_, right_subscriber_;
   ros::Subscriber disparity_subscriber_, sync_subscriber_, left_info_subscriber_, right_info_subscriber_,
       imu_subscriber_;
   ros::ServiceServer reset_service_, set_pose_service_;
+  std::unique_ptr<dynamic_reconfigure::Server<VisualOdometryConfig>> reconfigure_server_;
+  std::unique_ptr<dynamic_reconfigure::Server<UncertaintyConfig>>
+      uncertainty_server_;  ///< below ~uncertainty
   ros::WallTimer timer_;
   std::thread worker_;
 };

@@ -42,6 +42,7 @@ cv::Mat toDisparityMap(const stereo_msgs::DisparityImage& message, const vo::Ste
 /// and so is an orientation of norm 0. `time_s` is the header's stamp.
 vo::ImuSample toImuSample(const sensor_msgs::Imu& imu);
 
+/// The same transform; the quaternion must be of norm 1.
 Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform);
 
 }  // namespace stereo_nav::ros_io

@@ -19,6 +19,7 @@
 
 namespace stereo_nav::ros_io {
 
+/// Which part of a recording is read, s.
 struct RecordingOptions {
   double start_s = 0.0;  ///< after the first left image
   double duration_s = std::numeric_limits<double>::infinity();

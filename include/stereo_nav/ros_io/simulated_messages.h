@@ -25,11 +25,13 @@ struct PairMessages {
   double available_s;  ///< when both images are complete, simulation time
 };
 
-/// The sensors of a simulation as messages. `start` is the stamp of simulation time 0. Const methods may be
-/// called from several threads; `simulation` must outlive it.
+/// The sensors of a simulation as messages. `start` is the stamp of simulation time 0; the IMU, which the
+/// simulation has in the base's origin with the base's axes, sits at `T_base_imu`. (Its acceleration remains
+/// that of the origin.) Const methods may be called from several threads; `simulation` must outlive it.
 class SimulatedMessages {
  public:
-  SimulatedMessages(const sim::Simulation& simulation, const ros::Time& start);
+  SimulatedMessages(const sim::Simulation& simulation, const ros::Time& start,
+                    const Eigen::Isometry3d& T_base_imu = Eigen::Isometry3d::Identity());
 
   ros::Time stamp(double time_s) const { return start_ + ros::Duration(time_s); }
 
@@ -54,6 +56,7 @@ class SimulatedMessages {
 
   const sim::Simulation& simulation_;
   ros::Time start_;
+  Eigen::Isometry3d T_base_imu_;
 };
 
 }  // namespace stereo_nav::ros_io

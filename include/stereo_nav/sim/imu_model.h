@@ -9,6 +9,7 @@
 
 namespace stereo_nav::sim {
 
+/// What the simulated module delivers.
 enum class ImuKind {
   kNone,
   kPerfect,  ///< attitude and rates without error

@@ -22,14 +22,17 @@ struct Event {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Where the cameras sit on the robot. They look along base_link's x axis.
+/// Where the cameras sit on the robot. They look along base_link's x axis but for the angles, which turn
+/// about its fixed axes, roll first, then pitch, then yaw.
 struct RigParams {
   int image_scale = 1;
   int samples_per_pixel = 4;
   double camera_x_m = 0.10;
   double camera_y_m = 0.0613;
   double camera_z_m = 0.283;
+  double camera_roll_deg = 0.0;
   double camera_pitch_deg = 0.0;
+  double camera_yaw_deg = 0.0;
 
   void describe(ParameterVisitor& visitor);
   /// Of the rectified left optical frame.

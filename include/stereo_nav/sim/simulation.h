@@ -13,6 +13,7 @@ namespace stereo_nav::sim {
 
 enum class Side { kLeft, kRight };
 
+/// Of the two raw cameras, with their rectification.
 struct StereoCalibrationPair {
   CameraCalibration left;
   CameraCalibration right;

@@ -39,6 +39,7 @@ struct BaseState {
   Eigen::Vector3d acceleration_world = Eigen::Vector3d::Zero();     ///< m/s^2, without gravity
 };
 
+/// When `base_link` passes a way-point, and where that is (x, y in the world, m).
 struct WaypointPassing {
   double time_s;
   Eigen::Vector2d position;

@@ -7,6 +7,7 @@
 
 namespace stereo_nav::vo {
 
+/// Indices into the graph.
 struct CliqueResult {
   std::vector<std::size_t> members;  ///< in increasing order
   bool optimal;                      ///< the search ended before its budget did

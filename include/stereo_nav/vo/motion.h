@@ -30,6 +30,7 @@ struct RefinementParams {
   void describe(ParameterVisitor& visitor);
 };
 
+/// What refineMotion() found.
 struct RefinedMotion {
   Eigen::Isometry3d T_cur_prev = Eigen::Isometry3d::Identity();
   Eigen::Matrix<double, 6, 6>

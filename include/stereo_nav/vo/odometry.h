@@ -37,6 +37,7 @@ struct FeatureReport {
   Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  ///< left optical frame, m; zero if without depth
 };
 
+/// Wall-clock time that a stage of this frame took.
 struct StageTime {
   const char* stage;
   double milliseconds;

@@ -46,6 +46,7 @@ struct MotionPrior {
   }
 };
 
+/// What PoseEstimator found; not to be used unless `converged`.
 struct PoseEstimate {
   StereoView view;
   Matrix6d covariance = Matrix6d::Zero();  ///< of the left perturbation of T_camera_world: m, rad

@@ -10,12 +10,15 @@ namespace stereo_nav::vo {
 
 /// Recent IMU samples, asked for the rotation between two instants. Attitudes are preferred where the samples
 /// carry them (interpolated at both ends); otherwise angular rates are integrated (linear between samples,
-/// both ends interpolated). Bounded: keeps `kHistory_s` seconds.
+/// both ends interpolated). Keeps the seconds it is asked to.
 class RotationHistory {
  public:
   static constexpr double kHistory_s = 10.0;
   /// Two samples further apart than this leave a hole that nothing is interpolated across.
   static constexpr double kMaxGap_s = 0.25;
+
+  /// `history_s` may be infinite, for a recording as a whole.
+  explicit RotationHistory(double history_s = kHistory_s) : history_s_(history_s) {}
 
   /// Samples that are not newer than the last one, or not finite, are ignored; returns whether it was taken.
   bool add(const ImuSample& sample);
@@ -41,6 +44,7 @@ class RotationHistory {
   bool covers(double from_s, double to_s) const;
   std::optional<Eigen::Matrix3d> integrateRates(double from_s, double to_s) const;
 
+  double history_s_;
   std::deque<ImuSample> samples_;
 };
 

@@ -29,6 +29,7 @@ struct SparseStereoParams {
   }
 };
 
+/// A corner of the left image found in the right one.
 struct StereoMatch {
   Eigen::Vector2d right_px;  ///< freed from the epipolar error known so far
   Triangulation depth;

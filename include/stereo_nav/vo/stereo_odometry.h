@@ -114,6 +114,15 @@ class StereoOdometry : public Odometry {
   std::vector<std::size_t> foundTracks() const;
   PoseEstimate estimateFrom(const std::vector<std::size_t>& tracks, const MotionPrior& prior,
                             const StereoView& guess) const;
+  /// The motion that most features agree on begins as nothing that drives or flies could begin it: they are
+  /// on something that moves on its own.
+  bool isCarriedAway(const PoseEstimate& estimate, const MotionPrior& prior) const;
+  /// Whatever fills the view may pass: for a while the features seen before are worth waiting for.
+  bool waitsForMovers(const Images& images) const;
+  /// If not, `result` tells why.
+  bool isAcceptable(const PoseEstimate& estimate, const MotionPrior& prior, FrameResult& result);
+  /// Tracks found where `view` has them.
+  std::vector<std::size_t> tracksNear(const StereoView& view) const;
   std::vector<std::size_t> cliqueCandidates(const std::vector<std::size_t>& found) const;
   std::vector<std::size_t> selectRigid(const StereoView& view, FrameResult& result) const;
   PoseEstimate estimatePose(const std::vector<std::size_t>& selected, const MotionPrior& prior,
@@ -160,6 +169,7 @@ class StereoOdometry : public Odometry {
   Eigen::Isometry3d T_last_before_ = Eigen::Isometry3d::Identity();  ///< its motion since the one before
   std::optional<Vector6d> twist_;  ///< of the world in the camera frame at the last left stamp, m/s and rad/s
   int failures_ = 0;
+  bool movers_fill_view_ = false;  ///< since the last frame that had a pose
 };
 
 }  // namespace stereo_nav::vo

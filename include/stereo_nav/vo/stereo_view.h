@@ -45,6 +45,7 @@ Eigen::Vector3d leftRay(const StereoCalibration& calibration, const Eigen::Vecto
 Eigen::Vector2d transferToRight(const StereoCalibration& calibration, const Eigen::Isometry3d& T_late_camera,
                                 const Eigen::Vector2d& left_px, double inverse_depth);
 
+/// A point on the ray of a left pixel, from its right pixel.
 struct Triangulation {
   double inverse_depth;  ///< 1/m; <= 0 if the rays diverge
   double epipolar_px;    ///< distance of the right pixel from where the point projects to, signed by row

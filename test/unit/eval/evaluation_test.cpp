@@ -162,5 +162,23 @@ TEST(EvaluationSummary, fileHasFixedKeysAndRoundTripNumbers) {
   EXPECT_NE(toJson(summary).find("not UTF-8"), std::string::npos);
 }
 
+TEST(Evaluation, frameTableLeavesOutWhatIsNotKnown) {
+  FrameErrors frame;
+  frame.time_s = 0.5;
+  frame.features = 150;
+  frame.inliers = 60;
+  frame.position_m = {1.0, -0.25, 0.0};
+  FrameErrors lost = frame;
+  lost.lost = true;
+  lost.ground_truth_m = Eigen::Vector3d(2.0, 0.0, 0.125);
+  lost.absolute_error_m = 1e-3;
+  lost.rotation_error_deg = 3.0;
+  const std::string text = toCsv({frame, lost});
+  EXPECT_EQ(text.substr(0, text.find(',')), "time_s");
+  EXPECT_EQ(text.substr(text.find('\n') + 1),
+            "0.5,0,150,60,1,-0.25,0,,,,,\n"
+            "0.5,1,150,60,1,-0.25,0,2,0,0.125,0.001,3\n");
+}
+
 }  // namespace
 }  // namespace stereo_nav::eval

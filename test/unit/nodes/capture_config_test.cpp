@@ -1,11 +1,16 @@
-// What dynamic_reconfigure offers on the running capture node is what the node's parameters allow.
+// What dynamic_reconfigure offers on the running nodes is what their parameters allow.
 #include <gtest/gtest.h>
 
 #include <boost/any.hpp>
 #include <map>
 
+#include "stereo_nav/ImuBridgeConfig.h"
 #include "stereo_nav/StereoCaptureConfig.h"
+#include "stereo_nav/UncertaintyConfig.h"
+#include "stereo_nav/VisualOdometryConfig.h"
 #include "stereo_nav/capture/capture_params.h"
+#include "stereo_nav/nodes/imu_bridge_node.h"
+#include "stereo_nav/nodes/visual_odometry_params.h"
 #include "stereo_nav/params/parameters.h"
 
 namespace stereo_nav::capture {
@@ -28,7 +33,9 @@ class NumberCollector : public ParameterVisitor {
             const std::string&) override {
     numbers[name] = {"double", value, range.min, range.max};
   }
-  void flag(const std::string&, bool&, const std::string&) override {}
+  void flag(const std::string& name, bool& value, const std::string&) override {
+    numbers[name] = {"bool", static_cast<double>(value), 0.0, 1.0};
+  }
   void text(const std::string&, std::string&, const std::string&) override {}
   void choice(const std::string&, std::size_t&, const std::vector<std::string>&,
               const std::string&) override {}
@@ -38,28 +45,44 @@ class NumberCollector : public ParameterVisitor {
   std::map<std::string, Number> numbers;
 };
 
-double numberOf(const StereoCaptureConfig::AbstractParamDescription& field,
-                const StereoCaptureConfig& config) {
+template <class Config>
+double numberOf(const typename Config::AbstractParamDescription& field, const Config& config) {
   boost::any value;
   field.getValue(config, value);
-  return field.type == "int" ? static_cast<double>(boost::any_cast<int>(value))
-                             : boost::any_cast<double>(value);
+  if (field.type == "bool") return static_cast<double>(boost::any_cast<bool>(value));
+  if (field.type == "int") return static_cast<double>(boost::any_cast<int>(value));
+  return boost::any_cast<double>(value);
 }
 
-TEST(StereoCaptureConfig, AgreesWithTheParameters) {
+/// Names, types, defaults and ranges of what dynamic_reconfigure offers are those of the node's parameters.
+template <class Config, class Params>
+void expectAgreement(std::size_t count) {
   NumberCollector collector;
-  CaptureParams().describe(collector);
-  const auto& fields = StereoCaptureConfig::__getParamDescriptions__();
-  EXPECT_EQ(fields.size(), 3u) << "exposure, gain, max_skew";
+  Params().describe(collector);
+  const auto& fields = Config::__getParamDescriptions__();
+  EXPECT_EQ(fields.size(), count);
   for (const auto& field : fields) {
     SCOPED_TRACE(field->name);
     ASSERT_EQ(collector.numbers.count(field->name), 1u) << "no parameter of this name";
     const Number& number = collector.numbers.at(field->name);
     EXPECT_EQ(field->type, number.type);
-    EXPECT_EQ(numberOf(*field, StereoCaptureConfig::__getDefault__()), number.value);
-    EXPECT_EQ(numberOf(*field, StereoCaptureConfig::__getMin__()), number.min);
-    EXPECT_EQ(numberOf(*field, StereoCaptureConfig::__getMax__()), number.max);
+    EXPECT_EQ(numberOf<Config>(*field, Config::__getDefault__()), number.value);
+    EXPECT_EQ(numberOf<Config>(*field, Config::__getMin__()), number.min);
+    EXPECT_EQ(numberOf<Config>(*field, Config::__getMax__()), number.max);
   }
+}
+
+TEST(Reconfigure, StereoCaptureAgreesWithTheParameters) {
+  expectAgreement<StereoCaptureConfig, CaptureParams>(3);
+}
+
+TEST(Reconfigure, ImuBridgeAgreesWithTheParameters) {
+  expectAgreement<ImuBridgeConfig, nodes::ImuBridgeParams>(4);
+}
+
+TEST(Reconfigure, VisualOdometryAgreesWithTheParameters) {
+  expectAgreement<VisualOdometryConfig, nodes::VisualOdometryParams>(3);
+  expectAgreement<UncertaintyConfig, nodes::UncertaintyParams>(4);
 }
 
 TEST(CaptureParams, AreThoseOfTheConfigurationFile) {

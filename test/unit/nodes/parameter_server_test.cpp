@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "stereo_nav/nodes/visual_odometry_params.h"
+#include "support/command.h"
 
 namespace stereo_nav::ros_io {
 namespace {
@@ -35,20 +36,12 @@ TEST(ParameterServer, UnknownNamesAreRefused) {
   EXPECT_THROW(stereo_nav::readParameters(toYaml(tree), "/visual_odometry", params), ParameterError);
 }
 
-TEST(VisualOdometryParams, AreDocumentedAsTheyAre) {
-  std::ifstream file(std::string(STEREO_NAV_SOURCE_DIR) + "/docs/visual_odometry.md");
+TEST(ParameterReference, IsWhatTheNodesCheck) {
+  std::ifstream file(std::string(STEREO_NAV_SOURCE_DIR) + "/docs/parameters.md");
   std::stringstream page;
   page << file.rdbuf();
-  for (const ParameterDoc& doc : documentParameters(nodes::VisualOdometryParams())) {
-    std::string name = doc.name;
-    for (auto& letter : name) letter = letter == '.' ? '/' : letter;
-    std::string range = doc.range;
-    for (std::size_t bar = range.find('|'); bar != std::string::npos; bar = range.find('|', bar + 1))
-      range[bar] = ',';
-    const std::string row = "| `" + name + "` | " + doc.type + " | " + doc.default_value + " | " + range +
-                            " | " + doc.unit + " | " + doc.doc + " |";
-    EXPECT_NE(page.str().find(row), std::string::npos) << row;
-  }
+  EXPECT_EQ(page.str(), test::runCommand(PARAMETERS_PROGRAM).output)
+      << "to renew it: rosrun stereo_nav parameters > docs/parameters.md";
 }
 
 TEST(ParameterServer, ArraysKeepTheirOrder) {

@@ -91,7 +91,7 @@ TEST_F(EvaluateTest, MeasuresAKnownDriveAndRepeatsItselfToTheByte) {
   EXPECT_EQ(summary["frames_lost"], 0);
   EXPECT_NEAR(summary["path_length_m"].get<double>(), 0.44, 0.001);  // 11 periods at 0.4 m/s
   EXPECT_LT(summary["ate_rmse_m"].get<double>(), 0.03);
-  for (const char* name : {"trajectory.tum", "trajectory.kitti", "summary.json"}) {
+  for (const char* name : {"trajectory.tum", "trajectory.kitti", "summary.json", "frames.csv"}) {
     const std::string first = contentOf(folder / "first" / name);
     EXPECT_FALSE(first.empty());
     EXPECT_EQ(first, contentOf(folder / "second" / name)) << name;
@@ -100,6 +100,19 @@ TEST_F(EvaluateTest, MeasuresAKnownDriveAndRepeatsItselfToTheByte) {
   EXPECT_GT(timing["frame_time_ms"]["median"].get<double>(), 0.0);
   EXPECT_GT(timing["stage_time_ms"].size(), 3u);
   EXPECT_NE(contentOf(folder / "first/report.html").find("</html>"), std::string::npos);
+}
+
+TEST_F(EvaluateTest, TheDisparityMapHasItsOwnParameters) {
+  // Searched beyond the disparities of the room, nothing has a depth and nothing can be followed.
+  std::ofstream(file("near.yaml")) << "min_disparity: 128\n";
+  const auto as_configured = evaluate(file("room.bag") + " --output " + file("wide"));
+  ASSERT_EQ(as_configured.status, 0) << as_configured.output;
+  const auto result =
+      evaluate(file("room.bag") + " --disparity-config " + file("near.yaml") + " --output " + file("narrow"));
+  ASSERT_EQ(result.status, 0) << result.output;
+  const auto wide = nlohmann::json::parse(contentOf(folder / "wide/summary.json"));
+  const auto narrow = nlohmann::json::parse(contentOf(folder / "narrow/summary.json"));
+  EXPECT_LT(narrow["inliers_mean"].get<double>(), 0.5 * wide["inliers_mean"].get<double>());
 }
 
 TEST_F(EvaluateTest, RefusesBadArguments) {

@@ -145,24 +145,62 @@ TEST_F(StereoOdometryTest, FollowsThroughImagesBlurredByMotion) {
   }
 }
 
-TEST_F(StereoOdometryTest, IsNotCarriedAwayByWhatEntersTheView) {
-  // A block of strong texture, 1.9 m away, over two fifths of the view and sideways by 7 px per frame.
+/// Strong texture as wide as said, for something that moves on its own.
+cv::Mat movingBlock(const StereoCalibration& calibration, int width) {
   cv::RNG random(5);
-  cv::Mat block(calibration.height, calibration.width * 2 / 5, CV_8UC1);
+  cv::Mat block(calibration.height, width, CV_8UC1);
   random.fill(block, cv::RNG::UNIFORM, 0, 255);
   cv::GaussianBlur(block, block, {0, 0}, 2.0);
   cv::normalize(block, block, 0, 255, cv::NORM_MINMAX);
-  const int disparity_px = static_cast<int>(calibration.fx * calibration.baseline_m / 1.9);
+  return block;
+}
+
+/// Lays `block` into both images with its left edge at `x`, 1.9 m away.
+void showBlock(const cv::Mat& block, int x, const StereoCalibration& calibration, StereoFrame& frame) {
+  const auto show = [&block](cv::Mat& image, int at) {
+    const cv::Rect visible = cv::Rect(at, 0, block.cols, block.rows) & cv::Rect({0, 0}, image.size());
+    if (visible.empty()) return;
+    block(visible - cv::Point(at, 0)).copyTo(image(visible));
+  };
+  show(frame.left, x);
+  show(frame.right, x - static_cast<int>(calibration.fx * calibration.baseline_m / 1.9));
+}
+
+TEST_F(StereoOdometryTest, IsNotCarriedAwayByWhatEntersTheView) {
+  // Over two fifths of the view and sideways by 7 px per frame.
+  const cv::Mat block = movingBlock(calibration, calibration.width * 2 / 5);
   auto frames = course();
   for (std::size_t i = 5; i < frames.size(); ++i) {
-    const int x = calibration.width - block.cols - 7 * static_cast<int>(i - 5);
-    block.copyTo(frames[i].left(cv::Rect(x, 0, block.cols, block.rows)));
-    block.copyTo(frames[i].right(cv::Rect(x - disparity_px, 0, block.cols, block.rows)));
+    showBlock(block, calibration.width - block.cols - 7 * static_cast<int>(i - 5), calibration, frames[i]);
   }
   StereoOdometry vo = odometry();
   const FrameResult result = drive(vo, frames);
   ASSERT_EQ(result.state, State::kTracking) << result.reason;
   EXPECT_LT(endError(result), 0.02);
+}
+
+TEST_F(StereoOdometryTest, SaysSoWhenSomethingThatMovesFillsTheView) {
+  // The rig stands; what passes before it at 4 m/s fills first half, then all of the view.
+  constexpr double kFramePeriod_s = 1.0 / 30.0;
+  constexpr int kSpeed_px = 20;
+  const cv::Mat block = movingBlock(calibration, calibration.width);
+  const StereoFrame scene = frameAt(0.0);
+  StereoOdometry vo = odometry();
+  int lost = 0;
+  FrameResult result;
+  for (int i = 0; i < 50; ++i) {
+    StereoFrame frame;
+    frame.left = scene.left.clone();
+    frame.right = scene.right.clone();
+    frame.left_time_s = frame.right_time_s = kFramePeriod_s * i;
+    showBlock(block, calibration.width - kSpeed_px * (i - 4), calibration, frame);
+    result = vo.process(frame);
+    if (result.state == State::kLost) ++lost;
+    // Carried along, it would be metres away.
+    EXPECT_LT(result.T_start_camera.translation().norm(), 0.25) << "frame " << i;
+  }
+  EXPECT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_GE(lost, 5);
 }
 
 TEST_F(StereoOdometryTest, ARightCameraKnockedAfterItsCalibrationIsLearned) {
@@ -189,6 +227,20 @@ TEST_F(StereoOdometryTest, EqualInputGivesEqualOutput) {
   drive(other, frames);
   other.reset();
   EXPECT_EQ(drive(other, frames).T_start_camera.matrix(), result.T_start_camera.matrix());
+}
+
+TEST_F(StereoOdometryTest, GivesTheSameOnAnyNumberOfThreads) {
+  const int threads_before = cv::getNumThreads();
+  const auto frames = course(0.02);
+  cv::setNumThreads(1);
+  StereoOdometry alone = odometry();
+  const FrameResult result = drive(alone, frames);
+  for (const int threads : {2, 4}) {
+    cv::setNumThreads(threads);
+    StereoOdometry many = odometry();
+    EXPECT_EQ(drive(many, frames).T_start_camera.matrix(), result.T_start_camera.matrix()) << threads;
+  }
+  cv::setNumThreads(threads_before);
 }
 
 TEST_F(StereoOdometryTest, AWrongBiasOfTheRatesDoesNotTurnIt) {

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "stereo_nav/calibration/checkerboard.h"
+#include "stereo_nav/calibration/stereo_rig.h"
+#include "stereo_nav/vo/lie.h"
+
+namespace stereo_nav::calibration {
+
+/// Where the board is, from one stereo view, and how well the view and the calibration agree.
+struct BoardPose {
+  /// Board frame (see Checkerboard::corners()) -> rectified left optical frame.
+  Eigen::Isometry3d T_camera_board = Eigen::Isometry3d::Identity();
+  /// Of the left perturbation of T_camera_board (m, rad), from the residuals of this view.
+  vo::Matrix6d covariance = vo::Matrix6d::Zero();
+  std::vector<Eigen::Vector4d> residual_px;  ///< per corner, observed - predicted: left x, y, right x, y
+};
+
+/// Pose that fits all corners in both rectified images best (Gauss-Newton on the reprojection error, from
+/// the rigid alignment of the triangulated corners; Umeyama, PAMI 1991). Nothing where a corner has no
+/// positive disparity or the fit fails: left and right swapped, or a calibration of another rig.
+std::optional<BoardPose> estimateBoardPose(const vo::StereoCalibration& calibration,
+                                           const Checkerboard& board,
+                                           const std::vector<Eigen::Vector2d>& left_rect_px,
+                                           const std::vector<Eigen::Vector2d>& right_rect_px);
+
+/// How the board is turned from facing the left camera squarely, rad: R = Ry(yaw) Rx(pitch) Rz(roll) in
+/// optical axes. Yaw > 0: its right edge is nearer than the left one; pitch > 0: its lower edge is farther
+/// than the upper one; roll > 0: clockwise as seen.
+struct BoardAngles {
+  double yaw_rad;
+  double pitch_rad;
+  double roll_rad;
+};
+BoardAngles boardAngles(const Eigen::Matrix3d& R_camera_board);
+
+/// RMS distance in px between the corners in one raw image and those of the pose that fits them best: the
+/// lens model (K, D) alone is at stake.
+double lensError_px(const CameraModel& camera, const Checkerboard& board,
+                    const std::vector<cv::Point2f>& raw_px);
+
+}  // namespace stereo_nav::calibration

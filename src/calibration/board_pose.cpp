@@ -1,0 +1,90 @@
+#include "stereo_nav/calibration/board_pose.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/calib3d.hpp>
+
+#include "stereo_nav/vo/pose_estimator.h"
+
+namespace stereo_nav::calibration {
+namespace {
+
+/// The board where its corners triangulate to.
+std::optional<Eigen::Isometry3d> alignTriangulated(const vo::StereoCalibration& calibration,
+                                                   const std::vector<Eigen::Vector3d>& corners,
+                                                   const std::vector<Eigen::Vector2d>& left,
+                                                   const std::vector<Eigen::Vector2d>& right) {
+  Eigen::Matrix3Xd board(3, corners.size()), camera(3, corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double disparity_px = left[i].x() - calibration.cx - (right[i].x() - calibration.right_cx);
+    if (disparity_px <= 0.0) return std::nullopt;
+    const auto column = static_cast<Eigen::Index>(i);
+    board.col(column) = corners[i];
+    camera.col(column) = calibration.backProject(left[i].x(), left[i].y(), disparity_px);
+  }
+  return Eigen::Isometry3d(Eigen::umeyama(board, camera, false));
+}
+
+}  // namespace
+
+std::optional<BoardPose> estimateBoardPose(const vo::StereoCalibration& calibration,
+                                           const Checkerboard& board,
+                                           const std::vector<Eigen::Vector2d>& left_rect_px,
+                                           const std::vector<Eigen::Vector2d>& right_rect_px) {
+  const std::vector<Eigen::Vector3d> corners = board.corners();
+  const auto start = alignTriangulated(calibration, corners, left_rect_px, right_rect_px);
+  if (!start) return std::nullopt;
+  vo::StereoView view;
+  view.T_camera_world = *start;
+  BoardPose pose;
+  constexpr int kIterations = 10;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    vo::Matrix6d information = vo::Matrix6d::Zero();
+    vo::Vector6d gradient = vo::Vector6d::Zero();
+    double squares = 0.0;
+    pose.residual_px.clear();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      vo::StereoObservation seen;
+      seen.left_px = left_rect_px[i];
+      seen.right_px = right_rect_px[i];
+      seen.has_right = true;
+      vo::ViewResidual residual;
+      if (!vo::viewResidual(calibration, view, corners[i], seen, residual)) return std::nullopt;
+      information += residual.by_pose.transpose() * residual.by_pose;
+      gradient += residual.by_pose.transpose() * residual.error_px;
+      squares += residual.error_px.squaredNorm();
+      pose.residual_px.push_back(residual.error_px);
+    }
+    const Eigen::LDLT<vo::Matrix6d> solver(information);
+    if (solver.info() != Eigen::Success || !solver.isPositive()) return std::nullopt;
+    const auto freedom = static_cast<double>(4 * corners.size() - 6);
+    pose.T_camera_board = view.T_camera_world;
+    pose.covariance = squares / freedom * information.inverse();
+    view.T_camera_world = vo::renormalised(vo::expMotion(solver.solve(-gradient)) * view.T_camera_world);
+  }
+  if (!pose.T_camera_board.matrix().allFinite()) return std::nullopt;
+  return pose;
+}
+
+BoardAngles boardAngles(const Eigen::Matrix3d& R) {
+  return {std::atan2(R(0, 2), R(2, 2)), std::asin(std::clamp(-R(1, 2), -1.0, 1.0)),
+          std::atan2(R(1, 0), R(1, 1))};
+}
+
+double lensError_px(const CameraModel& camera, const Checkerboard& board,
+                    const std::vector<cv::Point2f>& raw_px) {
+  std::vector<cv::Point3d> corners;
+  for (const Eigen::Vector3d& corner : board.corners()) corners.emplace_back(corner.x(), corner.y(), 0.0);
+  const std::vector<cv::Point2d> seen(raw_px.begin(), raw_px.end());
+  cv::Vec3d rotation, translation;
+  if (!cv::solvePnP(corners, seen, camera.K, camera.D, rotation, translation)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  std::vector<cv::Point2d> predicted;
+  cv::projectPoints(corners, rotation, translation, camera.K, camera.D, predicted);
+  return cv::norm(predicted, seen) / std::sqrt(static_cast<double>(seen.size()));
+}
+
+}  // namespace stereo_nav::calibration

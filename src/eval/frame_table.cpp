@@ -1,0 +1,36 @@
+#include <cmath>
+#include <cstdio>
+
+#include "stereo_nav/eval/evaluation.h"
+
+namespace stereo_nav::eval {
+namespace {
+
+std::string cell(double value) {
+  if (!std::isfinite(value)) return "";
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.9g", value);
+  return buffer;
+}
+
+}  // namespace
+
+std::string toCsv(const std::vector<FrameErrors>& frames) {
+  std::string text =
+      "time_s,lost,features,inliers,x_m,y_m,z_m,true_x_m,true_y_m,true_z_m,absolute_error_m,"
+      "rotation_error_deg\n";
+  for (const FrameErrors& frame : frames) {
+    const Eigen::Vector3d truth =
+        frame.ground_truth_m.value_or(Eigen::Vector3d::Constant(EvaluationSummary::kUnknown));
+    text += cell(frame.time_s) + (frame.lost ? ",1," : ",0,") + std::to_string(frame.features) + "," +
+            std::to_string(frame.inliers);
+    for (const double value : {frame.position_m.x(), frame.position_m.y(), frame.position_m.z(), truth.x(),
+                               truth.y(), truth.z(), frame.absolute_error_m, frame.rotation_error_deg}) {
+      text += "," + cell(value);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace stereo_nav::eval

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "stereo_nav/calibration/calibration_check.h"
+
+namespace stereo_nav::tools {
+
+/// What was looked at.
+struct CheckedInput {
+  std::string input;        ///< file, folder or topics
+  std::string calibration;  ///< where it came from
+  std::size_t pairs = 0;
+  calibration::Checkerboard board;
+  calibration::StereoRig rig;
+  double largest_skew_s = 0.0;  ///< between the images of a pair
+};
+
+/// One line on a view's board: position in m, angles in deg (calibration::BoardAngles), errors in px.
+std::string viewLine(const calibration::ViewFigures& view);
+/// The heading that belongs to it.
+std::string viewHeading();
+
+/// The report for people, and the same for programs (JSON).
+std::string reportText(const CheckedInput& input, const calibration::CalibrationCheck& check);
+std::string reportJson(const CheckedInput& input, const calibration::CalibrationCheck& check);
+
+}  // namespace stereo_nav::tools

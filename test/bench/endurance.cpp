@@ -1,0 +1,53 @@
+// Does the odometry's memory grow? Feeds it 10^5 frames, or as many as asked for, and prints what the process
+// holds:
+//   build/devel/lib/stereo_nav/vo_endurance_test [FRAMES]
+// The camera pans over a wall and back, is covered for 6 frames in every 500, and is reset in every 20000.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "panned_wall.h"
+#include "stereo_nav/vo/stereo_odometry.h"
+
+namespace {
+
+using namespace stereo_nav;
+
+/// Resident memory of this process, kB.
+long residentMemory_kB() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word) {
+    if (word != "VmRSS:") continue;
+    long kilobytes = 0;
+    status >> kilobytes;
+    return kilobytes;
+  }
+  return -1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const long frames = argc > 1 ? std::atol(argv[1]) : 100000;
+  cv::setNumThreads(1);
+  const vo::StereoCalibration calibration = bench::wallCamera({320, 240});
+  vo::StereoOdometry odometry(vo::StereoParams(), calibration, Eigen::Matrix3d::Identity());
+  bench::PannedWall wall(calibration);
+  long tracked = 0;
+  std::printf("| frames | resident kB | tracked |\n|---|---|---|\n");
+  for (long i = 1; i <= frames; ++i) {
+    vo::StereoFrame frame = wall.next();
+    if (i % 500 < 6) {
+      frame.left.setTo(0);
+      frame.right.setTo(0);
+    }
+    if (i % 20000 == 0) odometry.reset();
+    if (odometry.process(frame).state == vo::State::kTracking) ++tracked;
+    if (i % (frames / 10) == 0 || i == 1000) {
+      std::printf("| %ld | %ld | %ld |\n", i, residentMemory_kB(), tracked);
+      std::fflush(stdout);
+    }
+  }
+  return 0;
+}

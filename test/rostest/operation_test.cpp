@@ -1,0 +1,149 @@
+// Operation: nodes start in any order, end cleanly on Ctrl-C, notice that the master has gone and come back
+// with it, and refuse parameters by name. Everything runs on masters of the test's own, with simulated
+// devices.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "support/background_command.h"
+#include "support/command.h"
+#include "support/own_master.h"
+
+namespace stereo_nav::test {
+namespace {
+
+constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
+
+const std::string kRos = "PATH=/usr/bin:$PATH ";
+const std::string kRobot = kRos +
+                           "exec roslaunch stereo_nav robot.launch simulated:=true "
+                           "'settings:=rig.samples_per_pixel=1;timing.rate_hz=8' ";
+
+/// Waits for one message.
+bool comes(const std::string& topic, double seconds = kLongWait_s) {
+  const std::string limit = std::to_string(static_cast<int>(seconds));
+  return runCommand(kRos + "timeout " + limit + " rostopic echo -n1 " + topic).status == 0;
+}
+
+TEST(Operation, CtrlCEndsEveryNodeByItself) {
+  OwnMaster master;
+  master.start();
+  BackgroundCommand robot(kRobot);
+  ASSERT_TRUE(comes("/odom")) << robot.output();
+  const auto begin = std::chrono::steady_clock::now();
+  robot.signal(SIGINT);
+  ASSERT_EQ(robot.waitFor(kLongWait_s), 0) << robot.output();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  RecordProperty("seconds", std::to_string(took.count()));
+  std::cout << "ended in " << took.count() << " s\n";
+  // roslaunch becomes rough with nodes that do not end, and says so.
+  EXPECT_EQ(robot.count("escalating to"), 0) << robot.output();
+  EXPECT_EQ(robot.count("has died"), 0) << robot.output();
+}
+
+TEST(Operation, AGoneMasterEndsTheNodesAndTheNextOneFindsThemAgain) {
+  OwnMaster master;
+  master.start();
+  BackgroundCommand robot(kRobot + "nodelet:=false");
+  ASSERT_TRUE(comes("/odom")) << robot.output();
+  master.crash();
+  // Each of our three processes says so and ends with a status that is not 0; roslaunch starts it again.
+  EXPECT_TRUE(robot.waitForOutput("has died [pid", kLongWait_s, 3)) << robot.output();
+  EXPECT_EQ(robot.count("has gone: its port refuses connections"), 3) << robot.output();
+  EXPECT_EQ(robot.count("exit code 3"), 3) << robot.output();
+  master.start();
+  EXPECT_TRUE(comes("/odom")) << robot.output();
+  robot.signal(SIGINT);
+  EXPECT_EQ(robot.waitFor(kLongWait_s), 0) << robot.output();
+}
+
+TEST(Operation, AMasterThatIsReplacedAtOnceIsNoticedToo) {
+  OwnMaster master;
+  master.start();
+  BackgroundCommand robot(kRobot);
+  ASSERT_TRUE(comes("/odom")) << robot.output();
+  master.crash();
+  master.start();
+  EXPECT_TRUE(robot.waitForOutput("has gone: ", kLongWait_s)) << robot.output();
+  EXPECT_TRUE(comes("/odom")) << robot.output();
+  robot.signal(SIGINT);
+  EXPECT_EQ(robot.waitFor(kLongWait_s), 0) << robot.output();
+}
+
+TEST(Operation, NodesStartInAnyOrder) {
+  OwnMaster master;
+  // The odometry before the master, the manager that it is to be loaded into, the cameras and the transforms.
+  BackgroundCommand odometry(kRos +
+                             "exec rosrun nodelet nodelet load stereo_nav/visual_odometry simulator "
+                             "__name:=visual_odometry");
+  ASSERT_TRUE(odometry.waitForOutput("Failed to contact master", kLongWait_s)) << odometry.output();
+  master.start();
+  BackgroundCommand robot(kRobot + "odometry:=false");
+  EXPECT_TRUE(comes("/odom")) << odometry.output() << robot.output();
+  odometry.signal(SIGINT);
+  robot.signal(SIGINT);
+  EXPECT_EQ(robot.waitFor(kLongWait_s), 0) << robot.output();
+}
+
+class Rviz : public testing::TestWithParam<const char*> {};
+
+TEST_P(Rviz, ShowsAllOfTheOdometry) {
+  OwnMaster master;
+  master.start();
+  // Xvfb finds a free display itself and prints its number.
+  const BackgroundCommand screen("exec Xvfb -displayfd 1 -screen 0 1000x700x24");
+  ASSERT_TRUE(screen.waitForOutput("\n", kLongWait_s)) << "Xvfb does not start";
+  BackgroundCommand rviz("export DISPLAY=:" + std::to_string(std::atoi(screen.output().c_str())) +
+                         " LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1; " + kRos +
+                         "exec roslaunch stereo_nav visualise.launch view:=" + GetParam());
+  for (const std::string topic : {"/path", "/odom", "/vo/features", "/vo/debug_image", "/vo/disparity_view",
+                                  "/ground_truth/odom", "/tf", "/tf_static"}) {
+    bool subscribed = false;
+    for (int attempt = 0; attempt < 60 && !subscribed && !rviz.waitFor(0.5); ++attempt) {
+      subscribed = runCommand(kRos + "rostopic info " + topic).output.find("* /rviz") != std::string::npos;
+    }
+    EXPECT_TRUE(subscribed) << topic << "\n" << rviz.output();
+  }
+  rviz.signal(SIGINT);
+  EXPECT_EQ(rviz.waitFor(kLongWait_s), 0) << rviz.output();
+}
+
+INSTANTIATE_TEST_SUITE_P(BothViews, Rviz, testing::Values("robot", "offline"));
+
+/// What rig_transforms says of a rig file, and its exit status.
+CommandResult checkRig(const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() / "stereo_nav_operation_test_rig.yaml";
+  std::ofstream(path) << text;
+  return runCommand(kRos + "timeout 60 rosrun stereo_nav rig_transforms _rig:=" + path.string());
+}
+
+TEST(Operation, AMistakeInTheRigFileIsNamed) {
+  OwnMaster master;
+  master.start();
+  const std::vector<std::pair<std::string, std::string>> mistakes = {
+      {"camera: {}", "unknown section camera; a rig has: cameras | imu | mounting | disparity"},
+      {"cameras: {widht: 320}", "cameras: unknown parameter widht"},
+      {"cameras: {width: 3}", "cameras: width is 3, allowed is 16 to 8192 px"},
+      {"cameras: {left: {divice: /dev/video0}}", "cameras: unknown parameter left.divice"},
+      {"cameras: {left: {controls: {gain: high}}}", "left.controls.gain must be a whole number"},
+      {"imu: {protocol: magic}", "imu: protocol is 'magic', allowed is one of: angles | raw"},
+      {"mounting: {camera: {z_m: 283}}", "mounting: camera.z_m is 283, allowed is -100 to 100 m"},
+      {"mounting: {camera: {z_m: high}}", "mounting: camera.z_m is 'high', must be a number"},
+      {"disparity: {disparity_range: 8}", "disparity: disparity_range is 8, allowed is 32 to 4096 px"},
+      {"just a text", "a rig file holds sections"},
+  };
+  for (const auto& [rig, message] : mistakes) {
+    const CommandResult result = checkRig(rig);
+    EXPECT_EQ(result.status, 2) << rig;
+    EXPECT_NE(result.output.find(message), std::string::npos) << rig << "\n" << result.output;
+  }
+}
+
+}  // namespace
+}  // namespace stereo_nav::test
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

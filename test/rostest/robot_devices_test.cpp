@@ -1,0 +1,66 @@
+// robot.launch with a rig whose devices are not there. Started by robot_devices.test.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_ros/transform_listener.h>
+
+#include "rostest/diagnostics_probe.h"
+#include "rostest/graph_probe.h"
+
+namespace stereo_nav::test {
+namespace {
+
+constexpr double kLongWait_s = 60.0;  // for a loaded machine; nothing waits this long otherwise
+
+TEST(RobotDevices, EachMissingDeviceIsNamed) {
+  const DiagnosticsProbe diagnostics;
+  GraphProbe probe;
+  const auto says = [&](const std::string& name, const std::string& text) {
+    return probe.waitUntil([&] { return diagnostics.says(name, text); }, kLongWait_s);
+  };
+  EXPECT_TRUE(says("stereo_capture: Left camera", "no-left-camera")) << diagnostics.names();
+  EXPECT_TRUE(says("stereo_capture: Right camera", "no-right-camera"));
+  EXPECT_TRUE(says("imu_bridge: imu", "no-imu")) << diagnostics.textOf("imu_bridge: imu");
+  EXPECT_TRUE(says("visual_odometry: odometry", "/camera/left/image_rect"));
+  EXPECT_EQ(diagnostics.levelOf("rig_transforms: mounting"), 0);
+}
+
+/// What the rig file says goes before config/, what neither says is the default.
+TEST(RobotDevices, TheRigFileGoesBeforeTheConfiguration) {
+  GraphProbe probe;
+  const auto become = [&](const std::string& name, double expected) {
+    double value = 0.0;
+    return probe.waitUntil([&] { return ros::param::get(name, value) && value == expected; }, kLongWait_s);
+  };
+  EXPECT_TRUE(become("/stereo_capture/width", 320)) << "rig";
+  EXPECT_TRUE(become("/stereo_capture/rate_hz", 15.0)) << "rig";
+  EXPECT_TRUE(become("/stereo_capture/max_skew_s", 0.0167)) << "config/capture.yaml";
+  EXPECT_TRUE(become("/stereo_capture/buffers", 4)) << "default";
+  EXPECT_TRUE(become("/imu_bridge/yaw_stddev_rad", 0.07)) << "rig, not the default of dynamic_reconfigure";
+  EXPECT_TRUE(become("/stereo_capture_disparity/disparity_range", 96)) << "rig";
+  EXPECT_TRUE(become("/stereo_capture_disparity/correlation_window_size", 15)) << "config/disparity.yaml";
+}
+
+TEST(RobotDevices, TheCameraLooksWhereTheRigFileSays) {
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  const Eigen::Isometry3d T = tf2::transformToEigen(
+      buffer.lookupTransform("base_link", "camera_left_optical", ros::Time(0), ros::Duration(kLongWait_s)));
+  EXPECT_TRUE(T.translation().isApprox(Eigen::Vector3d(0.1, 0.0, 0.3), 1e-9)) << T.translation();
+  // Down by 15 degrees, then to the left by 90: the optical axis z points along y, and down.
+  const double pitch = 15.0 * M_PI / 180.0;
+  EXPECT_TRUE(T.linear().col(2).isApprox(Eigen::Vector3d(0.0, std::cos(pitch), -std::sin(pitch)), 1e-9))
+      << T.matrix();
+  // The image's x axis, to the right, points forward then.
+  EXPECT_TRUE(T.linear().col(0).isApprox(Eigen::Vector3d::UnitX(), 1e-9)) << T.matrix();
+}
+
+}  // namespace
+}  // namespace stereo_nav::test
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "robot_devices_test");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,159 @@
+// robot.launch with simulated devices: odometry near the truth, the rig file's mounting in tf, diagnostics of
+// every node, parameters that change live, and roswtf's opinion. Started by robot.test.
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+#include <ros/package.h>
+#include <ros/ros.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_msgs/TFMessage.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <optional>
+
+#include "rostest/diagnostics_probe.h"
+#include "rostest/graph_probe.h"
+#include "stereo_nav/ros_io/rig.h"
+#include "support/command.h"
+
+namespace stereo_nav::test {
+namespace {
+
+constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
+
+/// How far the motion of the odometry is from that of the truth between its first and its last pose that have
+/// one.
+std::optional<double> motionError(const GraphProbe& probe, double& way_m) {
+  std::vector<std::pair<nav_msgs::Odometry, nav_msgs::Odometry>> pairs;
+  for (const auto& odometry : probe.odometry) {
+    for (const auto& truth : probe.ground_truth) {
+      if (truth.header.stamp == odometry.header.stamp) pairs.emplace_back(odometry, truth);
+    }
+  }
+  if (pairs.size() < 2) return std::nullopt;
+  const auto motion = [](const nav_msgs::Odometry& from, const nav_msgs::Odometry& to) {
+    Eigen::Isometry3d T_from, T_to;
+    tf2::fromMsg(from.pose.pose, T_from);
+    tf2::fromMsg(to.pose.pose, T_to);
+    return T_from.inverse() * T_to;
+  };
+  const Eigen::Isometry3d estimated = motion(pairs.front().first, pairs.back().first);
+  const Eigen::Isometry3d true_motion = motion(pairs.front().second, pairs.back().second);
+  way_m = true_motion.translation().norm();
+  return (estimated.translation() - true_motion.translation()).norm();
+}
+
+TEST(Robot, OdometryFollowsTheTruth) {
+  GraphProbe probe;
+  double way_m = 0.0;
+  std::optional<double> error_m;
+  ASSERT_TRUE(probe.waitUntil(
+      [&] {
+        error_m = motionError(probe, way_m);
+        return error_m && way_m > 0.5;
+      },
+      kLongWait_s))
+      << probe.odometry.size() << " poses, " << way_m << " m";
+  EXPECT_LT(*error_m, 0.05 * way_m + 0.05) << "after " << way_m << " m";
+}
+
+TEST(Robot, TheMountingIsThatOfTheRigFile) {
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  const auto mounting =
+      ros_io::loadMounting(ros::package::getPath("stereo_nav") + "/config/rigs/thesis.yaml");
+  for (const auto& [frame, expected] : {std::pair{"camera_left_optical", mounting.T_base_optical()},
+                                        std::pair{"imu_link", mounting.imu.T_base_sensor()}}) {
+    const Eigen::Isometry3d found = tf2::transformToEigen(
+        buffer.lookupTransform("base_link", frame, ros::Time(0), ros::Duration(kLongWait_s)));
+    EXPECT_TRUE(found.isApprox(expected, 1e-9)) << frame << "\n" << found.matrix();
+  }
+}
+
+TEST(Robot, EveryNodeHasDiagnosticsAndTheAggregatorSortsThem) {
+  const DiagnosticsProbe diagnostics, aggregated("/diagnostics_agg");
+  GraphProbe probe;
+  for (const std::string name :
+       {"simulator: simulated sensors", "rig_transforms: mounting", "visual_odometry: odometry"}) {
+    EXPECT_TRUE(probe.waitUntil([&] { return diagnostics.has(name); }, kLongWait_s)) << diagnostics.names();
+  }
+  EXPECT_TRUE(
+      probe.waitUntil([&] { return diagnostics.levelOf("rig_transforms: mounting") == 0; }, kLongWait_s));
+  EXPECT_TRUE(probe.waitUntil(
+      [&] { return diagnostics.says("visual_odometry: odometry", "latency median [ms]"); }, kLongWait_s));
+  for (const std::string name :
+       {"/stereo_nav/Cameras/simulator: simulated sensors", "/stereo_nav/Mounting/rig_transforms: mounting",
+        "/stereo_nav/Odometry/visual_odometry: odometry"}) {
+    EXPECT_TRUE(probe.waitUntil([&] { return aggregated.has(name); }, kLongWait_s)) << aggregated.names();
+  }
+}
+
+bool publishesTf(GraphProbe& probe, double seconds) {
+  bool seen = false;
+  ros::NodeHandle handle;
+  const boost::function<void(const tf2_msgs::TFMessage::ConstPtr&)> look =
+      [&seen](const tf2_msgs::TFMessage::ConstPtr& message) {
+        for (const auto& transform : message->transforms) seen = seen || transform.header.frame_id == "odom";
+      };
+  const auto subscriber = handle.subscribe<tf2_msgs::TFMessage>("/tf", 100, look);
+  probe.waitUntil([&] { return seen; }, seconds);
+  return seen;
+}
+
+/// What the node has afterwards; nothing where it does not answer.
+std::optional<dynamic_reconfigure::Config> reconfigure(const std::string& node, const std::string& flag,
+                                                       bool on) {
+  dynamic_reconfigure::Reconfigure service;
+  service.request.config.bools.resize(1);
+  service.request.config.bools[0].name = flag;
+  service.request.config.bools[0].value = static_cast<std::uint8_t>(on);
+  ros::service::waitForService(node + "/set_parameters", ros::Duration(kLongWait_s));
+  if (!ros::service::call(node + "/set_parameters", service)) return std::nullopt;
+  return service.response.config;
+}
+
+TEST(Robot, TfIsSwitchedOffAndOnLive) {
+  GraphProbe probe;
+  ASSERT_TRUE(publishesTf(probe, kLongWait_s));
+  ASSERT_TRUE(reconfigure("/visual_odometry", "publish_tf", false));
+  publishesTf(probe, 0.5);  // what was on its way
+  probe.forget();
+  EXPECT_FALSE(publishesTf(probe, 2.0));
+  EXPECT_TRUE(probe.waitUntil([&] { return !probe.odometry.empty(); }, kLongWait_s)) << "odometry goes on";
+  ASSERT_TRUE(reconfigure("/visual_odometry", "publish_tf", true));
+  EXPECT_TRUE(publishesTf(probe, kLongWait_s));
+}
+
+TEST(Robot, UncertaintyIsChangedLive) {
+  GraphProbe probe;
+  ASSERT_TRUE(probe.waitUntil([&] { return !probe.odometry.empty(); }, kLongWait_s));
+  dynamic_reconfigure::Reconfigure service;
+  service.request.config.doubles.resize(1);
+  service.request.config.doubles[0].name = "min_translation_sigma_m";
+  service.request.config.doubles[0].value = 0.5;
+  ASSERT_TRUE(ros::service::call("/visual_odometry/uncertainty/set_parameters", service));
+  EXPECT_TRUE(probe.waitUntil([&] { return probe.odometry.back().twist.covariance[0] > 0.2; }, kLongWait_s))
+      << probe.odometry.back().twist.covariance[0];
+  service.request.config.doubles[0].value = 0.001;
+  ASSERT_TRUE(ros::service::call("/visual_odometry/uncertainty/set_parameters", service));
+}
+
+/// Its static checks look at the computer's ROS installation, where it may find what it will, but nothing of
+/// ours.
+TEST(Robot, RoswtfFindsNothingOfOurs) {
+  const CommandResult result = runCommand("PATH=/usr/bin:$PATH timeout 120 roswtf");
+  const auto online = result.output.find("Online checks summary:");
+  ASSERT_NE(online, std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("No errors or warnings", online), std::string::npos) << result.output;
+  EXPECT_EQ(result.output.find("stereo_nav", result.output.find("Static checks summary:")), std::string::npos)
+      << result.output;
+}
+
+}  // namespace
+}  // namespace stereo_nav::test
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "robot_test");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+
+namespace stereo_nav::test {
+
+/// A shell command line that runs beside the test, in a process group of its own. What it prints is kept.
+class BackgroundCommand {
+ public:
+  explicit BackgroundCommand(const std::string& command) {
+    char path[] = "/tmp/stereo_nav_output_XXXXXX";
+    close(mkstemp(path));
+    log_ = path;
+    pid_ = fork();
+    if (pid_ != 0) return;
+    setpgid(0, 0);
+    const std::string line = "exec >" + log_ + " 2>&1; " + command;
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  /// Ends it and everything that it has started, if it has not ended.
+  ~BackgroundCommand() {
+    if (!status_) {
+      kill(-pid_, SIGKILL);
+      wait();
+    }
+    unlink(log_.c_str());
+  }
+  BackgroundCommand(const BackgroundCommand&) = delete;
+  BackgroundCommand& operator=(const BackgroundCommand&) = delete;
+
+  void signal(int number) const { kill(pid_, number); }
+  pid_t pid() const { return pid_; }
+
+  /// Exit status; 128 when a signal ended it.
+  int wait() {
+    if (status_) return *status_;
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    return *(status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128);
+  }
+  /// Nothing when it has not ended within the time.
+  std::optional<int> waitFor(double seconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (!status_ && std::chrono::steady_clock::now() < end) {
+      int status = 0;
+      if (waitpid(pid_, &status, WNOHANG) == pid_) {
+        status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+        break;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return status_;
+  }
+
+  std::string output() const {
+    std::ifstream file(log_);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  /// How often it has printed `text`.
+  int count(const std::string& text) const {
+    const std::string all = output();
+    int found = 0;
+    for (auto at = all.find(text); at != std::string::npos; at = all.find(text, at + 1)) ++found;
+    return found;
+  }
+  /// Whether it has printed `text` so often within the time.
+  bool waitForOutput(const std::string& text, double seconds, int times = 1) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (count(text) < times) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return true;
+  }
+
+ private:
+  std::string log_;
+  pid_t pid_ = 0;
+  std::optional<int> status_;
+};
+
+}  // namespace stereo_nav::test
