@@ -184,8 +184,10 @@ class TwoMachines : public testing::Test {
   void startRobot(const std::vector<std::string>& command) {
     robot_ = kRobot.start(folder_, command);
     ASSERT_TRUE(waitUntil([] { return ros::master::check(); }, kLongWait_s)) << "no master on the robot";
+    // By rosrun, which becomes the recorder: `rosbag` may be gone before the recorder it has started has
+    // closed the bag.
     recorder_ = kRobot.start(
-        folder_, {"rosbag", "record", "--quiet", "--output-name=" + bag_, "/odom", "/camera/sync"});
+        folder_, {"rosrun", "rosbag", "record", "--quiet", "--output-name=" + bag_, "/odom", "/camera/sync"});
   }
 
   /// Cuts the link, joins it again, and waits until everything that `arrivals` listens to goes on.
