@@ -1,6 +1,7 @@
 """Sections of the report that go beyond the thesis: what its author could only suspect, as curves."""
 import plots
-from results import NAMES, drives_table, end_percent, spread, table
+import thesis_drives
+from results import NAMES, drives_table, end_percent, spread, table, waypoints
 
 FREE_X = 21.0  # where the free-running cameras stand on the axis of skews
 
@@ -95,6 +96,11 @@ def rotation(results, pictures):
                      for point in drifts])))
 
 
+def _error_at(row, number):
+    """Distance from a way-point, in m."""
+    return thesis_drives.distance(waypoints(row)[number - 1], thesis_drives.WAYPOINTS[number - 1])
+
+
 def resolution(results, pictures):
     points = results.points("resolution")
     thesis_of = {"320x240": "thesis", "640x480": "thesis_range128", "1280x960": "thesis_range256"}
@@ -104,12 +110,16 @@ def resolution(results, pictures):
                  plots.tics(list(enumerate(points))))
     trends = {config: (results.mean("resolution", points[0], first), results.mean("resolution", points[-1], last))
               for config, first, last in (("thesis", "thesis", thesis_of[points[-1]]), ("stereo", "stereo", "stereo"))}
+    before_curves = " / ".join(spread(_error_at(row, 5) for row in results.select("resolution", point, thesis_of[point]))
+                               for point in points)
     return ("## Resolution\n\nAt 10 Hz, since large images cost 16 times as much to render; synchronised cameras, IMU without "
             "error. The disparities searched grow with the image, so that the nearest depth stays 0.89 m. From %s to %s the "
-            "RMSE of the method as published goes from %.2f to %.2f m (%s), that of the default from %.3f to %.3f m (%s). At "
-            "30 Hz: the first rows of this page.\n\n%s\n\n![resolution](experiments/resolution.svg)" % (
+            "RMSE of the method as published goes from %.2f to %.2f m (%s), that of the default from %.3f to %.3f m (%s). "
+            "On the straight stretch finer disparity does help the method as published: at way-point 5 it is off by %s m (%s). "
+            "What it loses, it loses in the curves after that: from image to image they shift a larger image by more pixels, "
+            "and its tracker starts where the feature was. At 30 Hz: the accuracy of the default above.\n\n%s\n\n![resolution](experiments/resolution.svg)" % (
                 points[0], points[-1], *trends["thesis"], _change(*trends["thesis"]), *trends["stereo"],
-                _change(*trends["stereo"]), drives_table(results, ["resolution"])))
+                _change(*trends["stereo"]), before_curves, " / ".join(points), drives_table(results, ["resolution"])))
 
 
 def causes(results, pictures):

@@ -6,6 +6,7 @@ usage: report.py RESULTS_FOLDER DOCS_FOLDER
 import os
 import sys
 
+import cases  # noqa: F401, finds the modules of scripts/lib
 import curves
 import repeated
 import requirements
