@@ -8,6 +8,7 @@ programs, launch files and their arguments.
 """
 import re
 import sys
+from collections import Counter
 from pathlib import Path
 
 import yaml
@@ -113,6 +114,9 @@ def existence_problems(root, document, text):
 
 def problems(root):
     entries, used = table(root), set()
+    for command, count in Counter(entry['command'] for entry in yaml.safe_load((root / TABLE).read_text())).items():
+        if count > 1:
+            yield f'{TABLE}: {count} entries for: {command}'
     for document in documents(root):
         text = document.read_text()
         for command in commands(text):
