@@ -79,10 +79,12 @@ def rotation(results, pictures):
                  "set logscale x\nset xrange [0.004:1.3]\n" + plots.tics([(float(point), point) for point in drifts]))
     imu = {point: results.mean("drift", point, "thesis") for point in drifts}
     vision_m = sum(vision) / len(vision)
-    worse = [point for point in drifts if imu[point] > vision_m]
-    verdict = ("From a drift of %s deg/s on the IMU's rotation is worse than that from vision" % worse[0] if worse and
-               worse[0] != drifts[0] else "At every drift tried the IMU's rotation is worse than that from vision" if worse else
-               "At every drift tried the IMU's rotation is better than that from vision")
+    worse = [point for point in drifts if imu[point] > 1.1 * vision_m]
+    better = [point for point in drifts if imu[point] < 0.9 * vision_m]
+    verdict = ("The IMU's rotation is clearly better at %s deg/s and clearly worse at %s deg/s of drift" % (
+        ", ".join(better) or "no", ", ".join(worse) or "no") if better or worse else
+               "At every drift tried the two are within a tenth of each other: what limits the method is its depth, not the "
+               "rotation")
     return ("## Rotation from the IMU against rotation from vision\n\nThe thesis' author wished for a rotation that comes from "
             "the features. On synchronised cameras the method as published has an RMSE of %.2f m with an IMU like his (%s "
             "deg/s of drift) and of %.2f m with rotation from its own features. %s; the default, which uses the IMU's rotation "

@@ -8,7 +8,7 @@ COLOURS = ["#1668b3", "#c9302c", "#b36b00", "#2b8a57", "#7a4fa3", "#5f6b76"]
 def draw(path, commands, height_px=400):
     """Runs gnuplot on the commands after a common header."""
     header = (
-        "set terminal svg size 820,%d dynamic font 'Helvetica,13' background rgb 'white'\nset output '%s'\n"
+        "set terminal svg size 820,%d dynamic noenhanced font 'Helvetica,13' background rgb 'white'\nset output '%s'\n"
         "set border 3 lc rgb '#5f6b76'\nset tics nomirror out scale 0.6 textcolor rgb '#3a444d'\n"
         "set grid lc rgb '#dfe4e8' lw 1 dt 1\nset key outside top center horizontal samplen 2\n" % (height_px, path))
     styles = "".join("set style line %d lc rgb '%s' lw 2 pt 7 ps 0.6\n" % item for item in enumerate(COLOURS, 1))
