@@ -157,7 +157,7 @@ TEST_F(CalibrateLaunch, TheButtonsLeadToASavedCalibrationThatIsGood) {
   std::ofstream(config) << "width: 320\nheight: 240\n";
   const VirtualScreen screen(folder);
   BoardPublisher board;
-  NodeProcess launched({"/usr/bin/env", "roslaunch", CALIBRATE_LAUNCH,
+  NodeProcess launched({"/usr/bin/env", "roslaunch", LAUNCH_FOLDER "/calibrate.launch",
                         "left:=/dev/v4l/by-path/no-left-camera", "right:=/dev/v4l/by-path/no-right-camera",
                         "square:=0.051", "config:=" + config,
                         "left_calibration:=file://" + folder + "/left.yaml",

@@ -16,9 +16,10 @@ namespace {
 constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
 
 const std::string kRos = "PATH=/usr/bin:$PATH ";
-const std::string kRobot = kRos +
-                           "exec roslaunch stereo_nav robot.launch simulated:=true "
-                           "'settings:=rig.samples_per_pixel=1;timing.rate_hz=8' ";
+// By its path: under rostest the package is found both in its source folder and in the devel space.
+const std::string kRobot = kRos + "exec roslaunch " LAUNCH_FOLDER
+                                  "/robot.launch simulated:=true "
+                                  "'settings:=rig.samples_per_pixel=1;timing.rate_hz=8' ";
 
 /// Waits for one message.
 bool comes(const std::string& topic, double seconds = kLongWait_s) {
@@ -96,7 +97,7 @@ TEST_P(Rviz, ShowsAllOfTheOdometry) {
   ASSERT_TRUE(screen.waitForOutput("\n", kLongWait_s)) << "Xvfb does not start";
   BackgroundCommand rviz("export DISPLAY=:" + std::to_string(std::atoi(screen.output().c_str())) +
                          " LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1; " + kRos +
-                         "exec roslaunch stereo_nav visualise.launch view:=" + GetParam());
+                         "exec roslaunch " LAUNCH_FOLDER "/visualise.launch view:=" + GetParam());
   for (const std::string topic : {"/path", "/odom", "/vo/features", "/vo/debug_image", "/vo/disparity_view",
                                   "/ground_truth/odom", "/tf", "/tf_static"}) {
     bool subscribed = false;
