@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(BothViews, Rviz, testing::Values("robot", "offline"));
 CommandResult checkRig(const std::string& text) {
   const auto path = std::filesystem::temp_directory_path() / "stereo_nav_operation_test_rig.yaml";
   std::ofstream(path) << text;
-  return runCommand(kRos + "timeout 60 rosrun stereo_nav rig_transforms _rig:=" + path.string());
+  return runCommand(kRos + "timeout 60 " RIG_TRANSFORMS " _rig:=" + path.string());
 }
 
 TEST(Operation, AMistakeInTheRigFileIsNamed) {
