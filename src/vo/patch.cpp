@@ -1,6 +1,7 @@
 #include "stereo_nav/vo/patch.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <opencv2/core/hal/intrin.hpp>
@@ -103,29 +104,31 @@ void sampleWarped(const cv::Mat& image, const cv::Point2f& centre, const Eigen::
 }
 
 /// Subtracts the mean over the window so that the integer sum is exactly zero; clears the padding.
-void removeMean(std::int16_t* grid, int window, int stride) {
-  int sum = 0;
+void removeMean(std::int16_t* grid, const std::int16_t* mask, int window, int stride) {
+  cv::v_int32x4 sums = cv::v_setzero_s32();
   for (int r = 0; r < window; ++r) {
-    for (int c = 0; c < window; ++c) sum += grid[r * stride + c];
+    for (int c = 0; c < stride; c += 8)
+      sums = cv::v_dotprod(cv::v_load(grid + r * stride + c), cv::v_load(mask + c), sums);
   }
+  const int sum = cv::v_reduce_sum(sums);
   const int count = window * window;
-  int mean = sum / count;
-  int remainder = sum - mean * count;
-  if (remainder < 0) {
-    --mean;
-    remainder += count;
-  }
-  for (int r = 0; r < window; ++r) {
-    for (int c = 0; c < stride; ++c) {
-      std::int16_t& value = grid[r * stride + c];
-      if (c >= window) {
-        value = 0;
-        continue;
-      }
-      value = static_cast<std::int16_t>(value - mean - (remainder > 0 ? 1 : 0));
-      if (remainder > 0) --remainder;
+  const int mean = sum >= 0 ? sum / count : -((count - 1 - sum) / count);
+  int remainder = sum - mean * count;  // so many values, the first ones, become smaller by one more
+  const cv::v_int16x8 means = cv::v_setall_s16(static_cast<short>(mean));
+  for (int r = 0; r < window; ++r, remainder = std::max(0, remainder - window)) {
+    for (int c = 0; c < stride; c += 8) {
+      const cv::v_int16x8 place(0, 1, 2, 3, 4, 5, 6, 7);
+      const cv::v_int16x8 one_less = place < cv::v_setall_s16(static_cast<short>(remainder - c));
+      const cv::v_int16x8 value = cv::v_load(grid + r * stride + c) - means + one_less;
+      cv::v_store(grid + r * stride + c, cv::v_mul_wrap(value, cv::v_load(mask + c)));
     }
   }
+}
+
+/// Half the difference, rounded towards zero.
+cv::v_int16x8 halfDifference(const std::int16_t* after, const std::int16_t* before) {
+  const cv::v_int16x8 difference = cv::v_load(after) - cv::v_load(before);
+  return (difference - (difference >> 15)) >> 1;
 }
 
 float dot(const std::int16_t* a, const std::int16_t* b, int count) {
@@ -166,17 +169,16 @@ std::optional<Patch> Patch::cut(const cv::Mat& image, const cv::Point2f& centre,
   }
   for (int r = 0; r < window; ++r) {
     const std::int16_t* row = wide.data() + (r + 1) * wide_stride + 1;
-    for (int c = 0; c < stride; ++c) {
-      const auto i = static_cast<std::size_t>(r * stride + c);
-      patch.intensity_[i] = row[c];
-      patch.gradient_x_[i] = static_cast<std::int16_t>((row[c + 1] - row[c - 1]) / 2);
-      patch.gradient_y_[i] = static_cast<std::int16_t>((row[c + wide_stride] - row[c - wide_stride]) / 2);
+    for (int c = 0; c < stride; c += 8) {
+      const int i = r * stride + c;
+      cv::v_store(patch.intensity_.data() + i, cv::v_load(row + c));
+      cv::v_store(patch.gradient_x_.data() + i, halfDifference(row + c + 1, row + c - 1));
+      cv::v_store(patch.gradient_y_.data() + i, halfDifference(row + c + wide_stride, row + c - wide_stride));
     }
   }
-  removeMean(patch.intensity_.data(), window, stride);
-  removeMean(patch.gradient_x_.data(), window, stride);
-  removeMean(patch.gradient_y_.data(), window, stride);
   for (int c = 0; c < kMaxStride; ++c) patch.mask_[static_cast<std::size_t>(c)] = c < window ? 1 : 0;
+  for (auto* grid : {&patch.intensity_, &patch.gradient_x_, &patch.gradient_y_})
+    removeMean(grid->data(), patch.mask_.data(), window, stride);
 
   const int count = window * stride;
   const std::int16_t* const fields[] = {patch.gradient_x_.data(), patch.gradient_y_.data(),

@@ -32,8 +32,10 @@ void KeyframeParams::describe(ParameterVisitor& visitor) {
   visitor.integer("window", window, {2, 50}, "", "keyframes refined together");
   visitor.real("min_tracked_share", min_tracked_share, {0.0, 1.0}, "",
                "a frame with a smaller share of the last keyframe's inliers becomes a keyframe");
-  visitor.real("max_parallax_px", max_parallax_px, {0.1, 1000.0}, "px",
-               "a frame whose features have moved further since the last keyframe (median) becomes one");
+  visitor.real(
+      "max_parallax_px", max_parallax_px, {0.1, 1000.0}, "px",
+      "features move this far from one keyframe to the next (median); the frame becomes one after which "
+      "the next would be beyond, should it move on as this one did");
 }
 
 void StereoParams::describe(ParameterVisitor& visitor) {

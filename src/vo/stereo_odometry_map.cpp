@@ -46,9 +46,11 @@ void StereoOdometry::learnEpipolarErrorAtStart() {
 }
 
 bool StereoOdometry::needsKeyframe() const {
-  std::vector<double> parallax;
+  std::vector<double> parallax;  // px, that of the next frame, should everything move on as it did
   for (const Track& track : tracks_) {
-    if (track.inlier) parallax.push_back((track.seen.left_px - track.keyframe_px).norm());
+    if (!track.inlier) continue;
+    parallax.push_back((track.seen.left_px - track.keyframe_px).norm() +
+                       (track.seen.left_px - track.last_px).norm());
   }
   if (static_cast<double>(parallax.size()) <
       params_.keyframes.min_tracked_share * static_cast<double>(keyframe_inliers_))

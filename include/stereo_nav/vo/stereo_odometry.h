@@ -18,7 +18,7 @@ namespace stereo_nav::vo {
 struct KeyframeParams {
   int window = 12;
   double min_tracked_share = 0.6;
-  double max_parallax_px = 20.0;
+  double max_parallax_px = 40.0;
 
   void describe(ParameterVisitor& visitor);
 };
