@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "support/node_process.h"
+#include "support/virtual_screen.h"
 #include "v4l2/checkerboard.h"
 #include "v4l2/feeder.h"
 #include "v4l2/ros_probe.h"
@@ -18,11 +19,9 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(Calibrator, CommitSavesTheGeometryOfTheCameras) {
-  const std::string virtual_screen = "/usr/bin/Xvfb",
-                    calibrator = "/usr/lib/camera_calibration/cameracalibrator.py";
-  for (const auto& program : {virtual_screen, calibrator}) {
-    if (!std::filesystem::exists(program)) GTEST_SKIP() << program << " is not installed";
-  }
+  if (!VirtualScreen::available()) GTEST_SKIP() << "Xvfb or xdotool is not installed";
+  const std::string calibrator = "/usr/lib/camera_calibration/cameracalibrator.py";
+  if (!std::filesystem::exists(calibrator)) GTEST_SKIP() << calibrator << " is not installed";
   const CheckerboardRig rig;
   constexpr auto kPeriod = 1000ms;
   capture::Feeder left_feeder("/dev/video10", V4L2_PIX_FMT_MJPEG, rig.width, rig.height);
@@ -39,13 +38,13 @@ TEST(Calibrator, CommitSavesTheGeometryOfTheCameras) {
   ros::param::set(kNode + "/stamps", "true");  // each image its own: free-running cameras
   ros::param::set(kNode + "/load_image_proc", false);
   Topic<sensor_msgs::CameraInfo> left("camera/left/camera_info"), right("camera/right/camera_info");
-  const NodeProcess screen({virtual_screen, ":1", "-screen", "0", "1024x768x24"});
+  const VirtualScreen screen("/tmp");
   const NodeProcess capture_node({STEREO_CAPTURE});
   // cameracalibrator.py waits for the services for five seconds only.
   ASSERT_TRUE(comesTrue([&] { return !left.messages.empty() && !right.messages.empty(); }));
   EXPECT_EQ(right.messages.back()->K[0], 0.0) << "not calibrated yet";
-  const NodeProcess calibration({"/usr/bin/env", "DISPLAY=:1", "LIBGL_ALWAYS_SOFTWARE=1", PRESS_BUTTONS,
-                                 "--size", "8x6", "--square", "0.051", "--approximate", "0.02",
+  const NodeProcess calibration({"/usr/bin/env", "LIBGL_ALWAYS_SOFTWARE=1", PRESS_BUTTONS, "--size", "8x6",
+                                 "--square", "0.051", "--approximate", "0.02",
                                  "right:=/camera/right/image_raw", "left:=/camera/left/image_raw",
                                  "right_camera:=/camera/right", "left_camera:=/camera/left"});
   // The right camera's calibration is committed last.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "stereo_nav/capture/capture_params.h"
 #include "stereo_nav/capture/controls.h"
 #include "stereo_nav/capture/v4l2_device.h"
 #include "unit/capture/fake_kernel.h"
@@ -215,6 +216,22 @@ TEST(Controls, AutomaticModesAreSetFirst) {
   EXPECT_EQ(ordered[0].name, "exposure_auto");
   EXPECT_EQ(ordered[1].name, "exposure_absolute");
   EXPECT_EQ(ordered[2].name, "gain");
+}
+
+TEST(Controls, ExposureAndGainStandForV4l2Settings) {
+  EXPECT_TRUE(exposureControls(-1.0, -1).empty()) << "as the camera is set";
+  const auto automatic = exposureControls(0.0, -1);
+  ASSERT_EQ(automatic.size(), 1u);
+  EXPECT_EQ(automatic[0].name, "auto_exposure");
+  EXPECT_EQ(automatic[0].value, V4L2_EXPOSURE_APERTURE_PRIORITY);
+  const auto manual = exposureControls(12.5, 40);
+  ASSERT_EQ(manual.size(), 3u);
+  EXPECT_EQ(manual[0].name, "auto_exposure");
+  EXPECT_EQ(manual[0].value, V4L2_EXPOSURE_MANUAL);
+  EXPECT_EQ(manual[1].name, "exposure_time_absolute");
+  EXPECT_EQ(manual[1].value, 125) << "V4L2 counts 100 us";
+  EXPECT_EQ(manual[2].name, "gain");
+  EXPECT_EQ(manual[2].value, 40);
 }
 
 }  // namespace
