@@ -14,6 +14,8 @@ import rosbag
 
 import thesis_drives
 
+LEAST_SHARE_ANSWERED = 0.95  # of the pairs, by one odometry message each
+
 
 def read_path(bag, topic):
     """(time, x, y) of a topic of nav_msgs/Odometry."""
@@ -77,6 +79,10 @@ def main():
                  "the logs beside it" % (options.bag, len(estimate), len(passings)))
     print_table([at(estimate, time_s) for time_s in passings])
     print("  odometry messages   %10d of %d pairs" % (len(estimate), len(truth)))
+    if len(estimate) < LEAST_SHARE_ANSWERED * len(truth):
+        print("  warning: %d pairs without odometry. Other programs may leave too little of this machine for a drive at real time: "
+              "the errors are those of this drive, not of the method. The report below has every pair."
+              % (len(truth) - len(estimate)))
     if options.picture:
         draw(options.picture, estimate, truth)
 
