@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <tuple>
+#include <vector>
 
 #include "support/textured_room.h"
 
@@ -95,6 +100,61 @@ TEST_F(StereoOdometryTest, StandsStillWithoutDrift) {
   const Eigen::Isometry3d drift = first.T_start_camera.inverse() * result.T_start_camera;
   EXPECT_LT(drift.translation().norm(), 1e-3);
   EXPECT_LT(Eigen::AngleAxisd(drift.linear()).angle(), 1e-3);
+}
+
+/// Median of how far the inliers will be from the keyframe in the next frame, should they move on, px.
+double parallaxAhead(const FrameResult& result, const std::map<std::uint64_t, cv::Point2f>& keyframe) {
+  std::vector<double> parallax;
+  for (const FeatureReport& feature : result.features) {
+    if (feature.fate != FeatureReport::Fate::kInlier) continue;
+    parallax.push_back(cv::norm(feature.current_px - keyframe.at(feature.id)) +
+                       cv::norm(feature.current_px - feature.previous_px));
+  }
+  std::sort(parallax.begin(), parallax.end());
+  return parallax.at(parallax.size() / 2);
+}
+
+TEST_F(StereoOdometryTest, MakesAKeyframeBeforeFeaturesHaveMovedTooFar) {
+  StereoParams params;
+  params.keyframes.min_tracked_share = 0.0;
+  params.keyframes.max_parallax_px = 8.0;
+  // Frames from one keyframe to the next: slowly late, quickly right away.
+  for (const auto& [period_s, frames, fewest, most] :
+       {std::tuple{0.02, 30, 5, 10}, std::tuple{0.05, 10, 2, 4}, std::tuple{0.2, 4, 1, 1}}) {
+    StereoOdometry vo(params, calibration, Eigen::Matrix3d::Identity());
+    std::map<std::uint64_t, cv::Point2f> keyframe;
+    int since = 0;
+    for (int i = 0; i < frames; ++i) {
+      const FrameResult result = vo.process(frameAt(period_s * i));
+      ++since;
+      if (i > 0) {
+        ASSERT_EQ(result.state, State::kTracking) << result.reason;
+        EXPECT_EQ(result.keyframe, parallaxAhead(result, keyframe) > 8.0) << i << " of " << period_s;
+        EXPECT_LE(since, most) << i << " of " << period_s;
+      }
+      if (!result.keyframe) continue;
+      if (i > 0) {
+        EXPECT_GE(since, fewest) << i << " of " << period_s;
+      }
+      since = 0;
+      keyframe.clear();
+      for (const FeatureReport& feature : result.features) keyframe[feature.id] = feature.current_px;
+    }
+  }
+}
+
+TEST_F(StereoOdometryTest, MakesAKeyframeWhenFewOfItsFeaturesAreLeft) {
+  StereoParams params;
+  params.keyframes.max_parallax_px = 1000.0;
+  for (const double share : {0.0, 1.0}) {
+    params.keyframes.min_tracked_share = share;
+    StereoOdometry vo(params, calibration, Eigen::Matrix3d::Identity());
+    int keyframes = 0;
+    for (const StereoFrame& frame : course()) {
+      if (vo.process(frame).keyframe) ++keyframes;
+    }
+    EXPECT_EQ(keyframes > 1, share > 0.5) << share;
+  }
 }
 
 TEST_F(StereoOdometryTest, ReportsDarknessAndRecovers) {
