@@ -321,6 +321,52 @@ TEST_F(StereoOdometryTest, AWrongBiasOfTheRatesDoesNotTurnIt) {
   EXPECT_LT(endError(result), 0.01);
 }
 
+TEST_F(StereoOdometryTest, RefusesImpossibleStamps) {
+  StereoOdometry vo = odometry();
+  const auto frames = course();
+  for (std::size_t i = 0; i < 5; ++i) vo.process(frames[i]);
+  StereoFrame frame = frames[5];
+  for (const double time_s : {frames[4].left_time_s, frames[2].left_time_s,
+                              std::numeric_limits<double>::quiet_NaN(),
+                              std::numeric_limits<double>::infinity()}) {
+    frame.left_time_s = frame.right_time_s = time_s;
+    EXPECT_THROW(vo.process(frame), std::invalid_argument) << time_s;
+  }
+  frame = frames[5];
+  frame.right_time_s += 7200.0;
+  EXPECT_THROW(vo.process(frame), std::invalid_argument) << "clocks of two time zones";
+  FrameResult result;
+  for (std::size_t i = 5; i < frames.size(); ++i) result = vo.process(frames[i]);
+  EXPECT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_LT(endError(result), 0.01) << "what was refused left no trace";
+  vo.reset();
+  EXPECT_NO_THROW(vo.process(frames[0]));
+}
+
+TEST_F(StereoOdometryTest, ADarkStartIsNoKeyframe) {
+  StereoOdometry vo = odometry();
+  StereoFrame dark = frameAt(0.0);
+  dark.left.setTo(0);
+  dark.right.setTo(0);
+  const FrameResult result = vo.process(dark);
+  EXPECT_FALSE(result.keyframe);
+  EXPECT_NE(result.reason.find("dark"), std::string::npos) << result.reason;
+  EXPECT_EQ(vo.process(frameAt(0.1)).state, State::kLost);
+  EXPECT_EQ(vo.process(frameAt(0.2)).state, State::kTracking);
+}
+
+TEST_F(StereoOdometryTest, WorksWithAnyNumberOfPyramidLevels) {
+  const auto frames = course();
+  for (const int levels : {1, 2, 8}) {
+    StereoParams params;
+    params.pyramid_levels = levels;
+    StereoOdometry vo(params, calibration, Eigen::Matrix3d::Identity());
+    const FrameResult result = drive(vo, frames);
+    ASSERT_EQ(result.state, State::kTracking) << levels << ": " << result.reason;
+    EXPECT_LT(endError(result), 0.02) << levels;
+  }
+}
+
 TEST_F(StereoOdometryTest, RefusesImagesOfAnotherSizeOrType) {
   StereoOdometry vo = odometry();
   StereoFrame frame = frameAt(0.0);
