@@ -109,7 +109,8 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
   checkStamps(frame);
   if (!window_.empty() && frame.left_time_s <= last_left_time_s_) {
     std::ostringstream message;
-    message << "a frame at " << std::fixed << frame.left_time_s << " s came after one at " << last_left_time_s_
+    message << "a frame at " << std::fixed << frame.left_time_s << " s came after one at "
+            << last_left_time_s_
             << " s: each must be later than the one before; reset() lets a recording begin again";
     throw std::invalid_argument(message.str());
   }

@@ -181,8 +181,8 @@ TEST(PatchTest, VectorInstructionsGiveWhatPlainArithmeticGives) {
   cv::Mat black_and_white;
   cv::threshold(noise(0, 255, 1.5), black_and_white, 100, 255, cv::THRESH_BINARY);
   // Faint ones show a single unit too much, the strongest contrast comes next to the limit of 32 bits.
-  for (const cv::Mat& image :
-       {noise(100, 103, 1.5), noise(252, 255, 1.5), noise(0, 255, 1.5), noise(0, 255, 0.7), black_and_white}) {
+  for (const cv::Mat& image : {noise(100, 103, 1.5), noise(252, 255, 1.5), noise(0, 255, 1.5),
+                               noise(0, 255, 0.7), black_and_white}) {
     const cv::Mat level = ImagePyramid(image, 1).level(0);
     for (int window = 5; window <= Patch::kMaxWindow; window += 2) {
       const cv::Point2f centre(39.3F, 41.8F);
