@@ -47,8 +47,12 @@ duration=$(/usr/bin/python3 "$STEREO_NAV_ROOT/scripts/lib/drive_table.py" --dura
 
 say "driving it at real time: roslaunch stereo_nav replay.launch, ${duration} s"
 roscore -p "${ROS_MASTER_URI##*:}" >"$out/roscore.log" 2>&1 &
-processes+=($!)
-until rosparam list >/dev/null 2>&1; do sleep 0.2; done
+master=$!
+processes+=("$master")
+until rosparam list >/dev/null 2>&1; do
+  kill -0 "$master" 2>/dev/null || die "roscore ended at once; see $out/roscore.log"
+  sleep 0.2
+done
 rosparam set /use_sim_time true
 rm -f "$out/drive.bag"
 rosbag record -q -O "$out/drive.bag" odom ground_truth/odom ground_truth/waypoint >"$out/record.log" 2>&1 &

@@ -47,7 +47,8 @@ for case in "${cases[@]}"; do
   IFS='|' read -r name repeat arguments <<<"$case"
   if $once; then repeat=1; fi
   # shellcheck disable=SC2086  # the arguments are words
-  [[ -s $work/$name.bag ]] || rosrun stereo_nav import_sequence $arguments --output "$work/$name.bag" >/dev/null 2>&1
+  [[ -s $work/$name.bag ]] || rosrun stereo_nav import_sequence $arguments --output "$work/$name.bag" >"$work/$name.log" 2>&1 ||
+    die "$name cannot be made: $(tail -n 1 "$work/$name.log")"
   for config in "${configs[@]}"; do
     out=$work/$name-${config%.yaml}
     taskset -c 1 rosrun stereo_nav evaluate "$work/$name.bag" --config "$config" --repeat "$repeat" --output "$out" \

@@ -47,7 +47,10 @@ export DISPLAY LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1 XDG_RUNTIME_DIR=$work
 
 roscore -p "${ROS_MASTER_URI##*:}" >"$work/roscore.log" 2>&1 &
 processes+=($!)
-until rosparam list >/dev/null 2>&1; do sleep 0.2; done
+until rosparam list >/dev/null 2>&1; do
+  kill -0 "${processes[-1]}" 2>/dev/null || die "roscore ended at once: $(tail -n 1 "$work/roscore.log")"
+  sleep 0.2
+done
 roslaunch stereo_nav visualise.launch view:="$view" >"$work/visualise.log" 2>&1 &
 processes+=($!)
 # rviz first: what it draws over time, such as the truth, is then complete.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "stereo_nav/params/parameters.h"
 
@@ -36,7 +37,20 @@ void applyOverride(YAML::Node root, const std::string& text) {
   for (std::size_t dot; (dot = path.find('.')) != std::string::npos; path = path.substr(dot + 1)) {
     node.reset(YAML::Node(node[path.substr(0, dot)]));
   }
-  node[path] = YAML::Load(text.substr(equals + 1));
+  try {
+    node[path] = YAML::Load(text.substr(equals + 1));
+  } catch (const YAML::Exception& error) {
+    throw ParameterError("the setting '" + text + "' has no value that can be read: " + error.what());
+  }
+}
+
+void requireOrder(const std::string& source, const std::string& lower, double from, const std::string& upper,
+                  double to) {
+  if (from < to) return;
+  std::ostringstream message;
+  message << source << ": " << lower << " is " << from << " and " << upper << " is " << to
+          << ": the first must be the smaller one; are they exchanged?";
+  throw ParameterError(message.str());
 }
 
 }  // namespace
@@ -108,6 +122,13 @@ Scenario loadScenario(const std::string& path, const std::vector<std::string>& o
   }
   for (const std::string& text : overrides) applyOverride(sections, text);
   readParameters(sections, path, scenario);
+  const RoomParams& room = scenario.scene.room;
+  requireOrder(path, "room.x_min_m", room.x_min_m, "room.x_max_m", room.x_max_m);
+  requireOrder(path, "room.y_min_m", room.y_min_m, "room.y_max_m", room.y_max_m);
+  for (std::size_t i = 0; i < scenario.events.size(); ++i) {
+    const std::string event = "events[" + std::to_string(i) + "].";
+    requireOrder(path, event + "from_s", scenario.events[i].from_s, event + "to_s", scenario.events[i].to_s);
+  }
   return scenario;
 }
 

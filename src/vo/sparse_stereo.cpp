@@ -1,5 +1,6 @@
 #include "stereo_nav/vo/sparse_stereo.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -25,7 +26,7 @@ void SparseStereoParams::describe(ParameterVisitor& visitor) {
                "a second place with more than this share of the best correlation makes a match ambiguous");
   visitor.real("max_epipolar_px", max_epipolar_px, {0.1, 50.0}, "px",
                "distance from the epipolar line at most");
-  visitor.real("min_disparity_px", min_disparity_px, {0.0, 10.0}, "px",
+  visitor.real("min_disparity_px", min_disparity_px, {1e-3, 10.0}, "px",
                "points with less are too far to have a depth");
 }
 
@@ -75,15 +76,16 @@ std::optional<StereoMatch> SparseStereoMatcher::search(const ImagePyramid& left,
                                                        const Eigen::Vector2d& left_px,
                                                        double slack_px) const {
   const double tolerance_px = params_.max_epipolar_px + slack_px + epipolar_error_.slack_px();
-  const auto row_tolerance = static_cast<int>(tolerance_px / (1 << search_level_));
-  if (right.levels() <= search_level_) return std::nullopt;
-  const float scale = 1.0F / static_cast<float>(1 << search_level_);
-  const auto patch =
-      Patch::cut(left.level(search_level_), toCv(left_px) * scale, params_.search_window_px, 0.0);
+  const int level = std::min({search_level_, left.levels() - 1, right.levels() - 1});
+  const float scale = 1.0F / static_cast<float>(1 << level);
+  const auto patch = Patch::cut(left.level(level), toCv(left_px) * scale, params_.search_window_px, 0.0);
   if (!patch) return std::nullopt;
-  const cv::Mat& image = right.level(search_level_);
+  const cv::Mat& image = right.level(level);
+  // Fast rigs with much skew make it large: no more rows than there are.
+  const auto row_tolerance =
+      static_cast<int>(std::min<double>(image.rows, tolerance_px / static_cast<double>(1 << level)));
   const int steps = static_cast<int>(params_.max_disparity_share * image.cols);
-  const double inverse_depth_step = (1 << search_level_) / (calibration_.fx * calibration_.baseline_m);
+  const double inverse_depth_step = (1 << level) / (calibration_.fx * calibration_.baseline_m);
 
   std::vector<float> likeness(static_cast<std::size_t>(steps) + 1, -1.0F);
   std::vector<cv::Point2f> places(likeness.size());

@@ -1,5 +1,6 @@
 #include "stereo_nav/vo/stereo_odometry.h"
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -24,6 +25,16 @@ void checkImages(const StereoFrame& frame, const StereoCalibration& calibration)
             << expected.height << " of 8 bit grey: is camera_info of another resolution than the images?";
     throw std::invalid_argument(message.str());
   }
+}
+
+void checkStamps(const StereoFrame& frame) {
+  constexpr double kMostSkew_s = 1.0;
+  if (std::isfinite(frame.left_time_s) && std::abs(frame.right_time_s - frame.left_time_s) <= kMostSkew_s)
+    return;
+  std::ostringstream message;
+  message << std::fixed << "the left image was taken at " << frame.left_time_s << " s, the right one at "
+          << frame.right_time_s << " s: these are no pair; are both cameras stamped by one clock?";
+  throw std::invalid_argument(message.str());
 }
 
 }  // namespace
@@ -95,6 +106,14 @@ void StereoOdometry::reset() {
 
 FrameResult StereoOdometry::process(const StereoFrame& frame) {
   checkImages(frame, calibration_);
+  checkStamps(frame);
+  if (!window_.empty() && frame.left_time_s <= last_left_time_s_) {
+    std::ostringstream message;
+    message << "a frame at " << std::fixed << frame.left_time_s << " s came after one at "
+            << last_left_time_s_
+            << " s: each must be later than the one before; reset() lets a recording begin again";
+    throw std::invalid_argument(message.str());
+  }
   FrameResult result;
   StageClock clock(result.stage_times);
   Images images;
@@ -146,6 +165,7 @@ void StereoOdometry::startAt(const Images& images, const Eigen::Isometry3d& T_ca
   last_is_keyframe_ = true;
   if (landmarks_.size() < static_cast<std::size_t>(params_.min_inliers)) {
     window_.clear();
+    result.keyframe = false;
     std::ostringstream message;
     message << "only " << landmarks_.size() << " features with depth, " << params_.min_inliers
             << " needed: dark, blocked or without texture; or the cameras are not those of the calibration";
@@ -251,15 +271,17 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
 
 bool StereoOdometry::isAcceptable(const PoseEstimate& estimate, const MotionPrior& prior,
                                   FrameResult& result) {
-  if (isCarriedAway(estimate, prior)) {
-    for (Track& track : tracks_) track.inlier = false;
+  const bool carried_away = isCarriedAway(estimate, prior);
+  if (!carried_away && estimate.converged &&
+      estimate.inliers >= static_cast<std::size_t>(params_.min_inliers))
+    return true;
+  for (Track& track : tracks_) track.inlier = false;
+  if (carried_away) {
     result.reason =
         "most of what is seen moves as no robot could have begun to within a frame: something that moves on "
-        "its "
-        "own fills the view; the features seen before are waited for";
+        "its own fills the view; the features seen before are waited for";
     return false;
   }
-  if (estimate.converged && estimate.inliers >= static_cast<std::size_t>(params_.min_inliers)) return true;
   std::ostringstream message;
   message << "only " << estimate.inliers << " of " << result.features_tracked
           << " tracked features agree with one motion, " << params_.min_inliers

@@ -76,7 +76,8 @@ class Odometry {
   /// frame.
   virtual void addImu(const ImuSample& sample) = 0;
 
-  /// Frames must be of the calibration's size; throws std::invalid_argument otherwise.
+  /// Frames must be of the calibration's size and in order of time; throws std::invalid_argument where it can
+  /// tell that they are not.
   virtual FrameResult process(const StereoFrame& frame) = 0;
 
   /// Forgets frames, features and IMU samples; the next frame is a new start.

@@ -49,6 +49,11 @@ TEST(Scenario, MessagesNameTheItem) {
   EXPECT_NE(messageOf("weather: rain\n").find("unknown parameter weather"), std::string::npos);
   EXPECT_NE(messageOf("", {"timing.rate_hz=0"}).find("timing.rate_hz is 0"), std::string::npos);
   EXPECT_NE(messageOf("", {"rate"}).find("must look like"), std::string::npos);
+  EXPECT_NE(messageOf("", {"imu.kind=["}).find("setting 'imu.kind=['"), std::string::npos);
+  EXPECT_NE(messageOf("room: {y_min_m: 3, y_max_m: -3}\n").find("room.y_min_m is 3 and room.y_max_m is -3"),
+            std::string::npos);
+  EXPECT_NE(messageOf("events:\n  - {kind: light, from_s: 2, to_s: 1}\n").find("events[0].from_s is 2"),
+            std::string::npos);
 }
 
 TEST(Scenario, AllThatAreShippedCanBeDriven) {

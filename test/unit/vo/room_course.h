@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "stereo_nav/vo/stereo_odometry.h"
+#include "support/textured_room.h"
+
+namespace stereo_nav::vo {
+
+inline constexpr double kPeriod_s = 0.1;
+inline constexpr int kFrames = 12;
+
+/// Drives through the textured room; both images are rendered at their own times.
+class StereoOdometryTest : public ::testing::Test {
+ protected:
+  StereoFrame frameAt(double time_s, double skew_s = 0.0) const {
+    StereoFrame frame;
+    frame.left_time_s = time_s;
+    frame.right_time_s = time_s + skew_s;
+    const auto pair = room.renderPair(test::roomDrive(time_s), test::roomDrive(time_s + skew_s), calibration);
+    frame.left = pair.left;
+    frame.right = pair.right;
+    return frame;
+  }
+
+  std::vector<StereoFrame> course(double skew_s = 0.0) const {
+    std::vector<StereoFrame> frames;
+    for (int i = 0; i < kFrames; ++i) frames.push_back(frameAt(kPeriod_s * i, skew_s));
+    return frames;
+  }
+
+  static FrameResult drive(Odometry& odometry, const std::vector<StereoFrame>& frames) {
+    FrameResult result;
+    for (const StereoFrame& frame : frames) result = odometry.process(frame);
+    return result;
+  }
+
+  /// Distance from the truth at the end of the course, m.
+  static double endError(const FrameResult& result) {
+    const Eigen::Isometry3d truth =
+        test::roomDrive(0.0).inverse() * test::roomDrive(kPeriod_s * (kFrames - 1));
+    return (result.T_start_camera.translation() - truth.translation()).norm();
+  }
+
+  StereoOdometry odometry() const { return {StereoParams(), calibration, Eigen::Matrix3d::Identity()}; }
+
+  test::TexturedRoom room;
+  StereoCalibration calibration = test::roomCalibration();
+};
+
+}  // namespace stereo_nav::vo
