@@ -118,5 +118,6 @@ def simulator_digest():
 
 
 def odometry_digest():
-    return digest("src/vo", "include/stereo_nav/vo", "src/eval", "src/ros_io/stereo_processing.cpp",
-                  "src/tools/evaluate_run.cpp", "src/tools/recorded_disparity.cpp")
+    return digest("src/vo", "include/stereo_nav/vo", "src/eval", "src/params", "src/ros_io/stereo_processing.cpp",
+                  "src/ros_io/recording.cpp", "src/ros_io/pairing.cpp", "src/tools/evaluate_run.cpp",
+                  "src/tools/recorded_disparity.cpp")

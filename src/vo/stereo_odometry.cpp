@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 
 #include "pixel.h"
 #include "stage_clock.h"
@@ -15,64 +14,7 @@ constexpr double kNegligibleSkew_s = 1e-5;
 /// m/s and rad/s: how fast the rig may move before anything is known of it.
 constexpr double kFirstTwistSigma = 1.0;
 
-void checkImages(const StereoFrame& frame, const StereoCalibration& calibration) {
-  const cv::Size expected(calibration.width, calibration.height);
-  for (const cv::Mat* image : {&frame.left, &frame.right}) {
-    if (image->type() == CV_8UC1 && image->size() == expected) continue;
-    std::ostringstream message;
-    message << (image == &frame.left ? "left" : "right") << " image is " << image->cols << "x" << image->rows
-            << " of OpenCV type " << image->type() << ", calibration is for " << expected.width << "x"
-            << expected.height << " of 8 bit grey: is camera_info of another resolution than the images?";
-    throw std::invalid_argument(message.str());
-  }
-}
-
-void checkStamps(const StereoFrame& frame) {
-  constexpr double kMostSkew_s = 1.0;
-  if (std::isfinite(frame.left_time_s) && std::abs(frame.right_time_s - frame.left_time_s) <= kMostSkew_s)
-    return;
-  std::ostringstream message;
-  message << std::fixed << "the left image was taken at " << frame.left_time_s << " s, the right one at "
-          << frame.right_time_s << " s: these are no pair; are both cameras stamped by one clock?";
-  throw std::invalid_argument(message.str());
-}
-
 }  // namespace
-
-void KeyframeParams::describe(ParameterVisitor& visitor) {
-  visitor.integer("window", window, {2, 50}, "", "keyframes refined together");
-  visitor.real("min_tracked_share", min_tracked_share, {0.0, 1.0}, "",
-               "a frame with a smaller share of the last keyframe's inliers becomes a keyframe");
-  visitor.real(
-      "max_parallax_px", max_parallax_px, {0.1, 1000.0}, "px",
-      "features move this far from one keyframe to the next (median); the frame becomes one after which "
-      "the next would be beyond, should it move on as this one did");
-}
-
-void StereoParams::describe(ParameterVisitor& visitor) {
-  visitor.integer("pyramid_levels", pyramid_levels, {1, 8}, "", "image sizes, each half the one before");
-  visitSection(visitor, "corners", corners);
-  visitSection(visitor, "tracking", tracking);
-  visitSection(visitor, "stereo", stereo);
-  visitSection(visitor, "rigidity", rigidity);
-  visitor.integer(
-      "clique_points", clique_points, {10, 5000}, "",
-      "most features among which the largest rigid set is searched; the work grows with its square");
-  visitor.integer("clique_budget", clique_budget, {0, 10000000}, "",
-                  "most nodes expanded in search of the largest rigid set");
-  visitSection(visitor, "motion", motion);
-  visitSection(visitor, "window", window);
-  visitSection(visitor, "keyframes", keyframes);
-  visitSection(visitor, "imu", imu);
-  visitor.integer("min_inliers", min_inliers, {4, 1000}, "",
-                  "fewer features that agree are no motion: the frame is lost");
-  visitor.integer("max_coasting_frames", max_coasting_frames, {0, 1000}, "",
-                  "lost frames after which the map is given up and a new one begun");
-  visitor.real("acceleration_density", acceleration_density, {1e-6, 1e6}, "m^2/s^3",
-               "how much the velocity changes: its variance grows by this per second");
-  visitor.real("angular_acceleration_density", angular_acceleration_density, {1e-6, 1e6}, "rad^2/s^3",
-               "how much the angular rate changes: its variance grows by this per second");
-}
 
 StereoOdometry::StereoOdometry(const StereoParams& params, const StereoCalibration& calibration,
                                const Eigen::Matrix3d& R_camera_imu)
@@ -105,15 +47,7 @@ void StereoOdometry::reset() {
 }
 
 FrameResult StereoOdometry::process(const StereoFrame& frame) {
-  checkImages(frame, calibration_);
-  checkStamps(frame);
-  if (!window_.empty() && frame.left_time_s <= last_left_time_s_) {
-    std::ostringstream message;
-    message << "a frame at " << std::fixed << frame.left_time_s << " s came after one at "
-            << last_left_time_s_
-            << " s: each must be later than the one before; reset() lets a recording begin again";
-    throw std::invalid_argument(message.str());
-  }
+  checkFrame(frame);
   FrameResult result;
   StageClock clock(result.stage_times);
   Images images;

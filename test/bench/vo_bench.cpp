@@ -3,9 +3,11 @@
 // Images are synthetic noise, moved from frame to frame: nothing to download, and every size alike.
 #include <benchmark/benchmark.h>
 
+#include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/video/tracking.hpp>
+#include <string>
 
 #include "panned_wall.h"
 #include "stereo_nav/vo/stereo_odometry.h"
@@ -36,14 +38,19 @@ void wholeFrame(benchmark::State& state, int features) {
   StereoOdometry odometry(params, calibration, Eigen::Matrix3d::Identity());
   bench::PannedWall wall(calibration);
   double inliers = 0.0;
+  std::map<std::string, double> stages_ms;
   for (int i = 0; i < 5; ++i) odometry.process(wall.next());
   for (auto _ : state) {
     state.PauseTiming();
     const StereoFrame frame = wall.next();
     state.ResumeTiming();
-    inliers += odometry.process(frame).inliers;
+    const FrameResult result = odometry.process(frame);
+    inliers += result.inliers;
+    for (const auto& stage : result.stage_times) stages_ms[stage.stage] += stage.milliseconds;
   }
-  state.counters["inliers"] = inliers / static_cast<double>(state.iterations());
+  const auto frames = static_cast<double>(state.iterations());
+  state.counters["inliers"] = inliers / frames;
+  for (const auto& [stage, ms] : stages_ms) state.counters[stage + "_ms"] = ms / frames;
 }
 BENCHMARK_CAPTURE(wholeFrame, features_150, 150)->Apply(sizes);
 BENCHMARK_CAPTURE(wholeFrame, features_200, 200)->Apply(sizes);

@@ -79,6 +79,8 @@ class StereoOdometry : public Odometry {
     double skew_s() const { return right_time_s - left_time_s; }
   };
 
+  /// Throws std::invalid_argument that says what is wrong with it.
+  void checkFrame(const StereoFrame& frame) const;
   void startAt(const Images& images, const Eigen::Isometry3d& T_camera_world, FrameResult& result);
   bool followOrSearch(const Images& images, FrameResult& result);
   /// Where a new map begins: at the last position, turned as the IMU says, if it does.
