@@ -24,16 +24,18 @@ RecorderParams readParams(const ros::NodeHandle& private_handle) {
   return params;
 }
 
+/// Absolute, so that what is said of it can be found: roslaunch starts nodes in ROS_HOME.
 fs::path makeFolder(const RecorderParams& params) {
+  const fs::path folder = fs::absolute(params.folder);
   std::error_code error;
-  fs::create_directories(params.folder, error);
+  fs::create_directories(folder, error);
   if (error) throw ParameterError("~folder " + params.folder + " cannot be made: " + error.message());
   const auto space = fs::space(params.folder, error);
   if (!error && static_cast<double>(space.available) < params.reserve_gb * kGiga) {
     throw ParameterError("~folder " + params.folder + " has less than ~reserve_gb = " +
                          std::to_string(params.reserve_gb) + " GB free; delete old recordings");
   }
-  return params.folder;
+  return folder;
 }
 
 /// Everything that is needed to run the odometry on the recording later, and what the robot said meanwhile.
