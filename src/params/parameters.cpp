@@ -215,10 +215,10 @@ YAML::Node loadYamlFile(const std::string& path) {
     return YAML::LoadFile(path);
   } catch (const YAML::BadFile&) {
     // roslaunch starts nodes in ROS_HOME, not in the folder that it was called from.
-    const std::string where = std::filesystem::path(path).is_relative()
-                                  ? " in " + std::filesystem::current_path().string() +
-                                        " (launch files want absolute paths)"
-                                  : "";
+    const std::string where =
+        std::filesystem::path(path).is_relative()
+            ? " in " + std::filesystem::current_path().string() + " (launch files want absolute paths)"
+            : "";
     throw ParameterError(path + ": cannot be read" + where +
                          "; does the file exist, and may this user read it?");
   } catch (const YAML::Exception& error) {

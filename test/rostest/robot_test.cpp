@@ -89,7 +89,8 @@ TEST(Robot, EveryNodeHasDiagnosticsAndTheAggregatorSortsThem) {
   EXPECT_TRUE(probe.waitUntil(
       [&] { return aggregated.levelOf("/stereo_nav") == 0 || aggregated.levelOf("/stereo_nav") == 1; },
       kLongWait_s))
-      << aggregated.levelOf("/stereo_nav") << "\n" << aggregated.names();
+      << aggregated.levelOf("/stereo_nav") << "\n"
+      << aggregated.names();
   EXPECT_FALSE(aggregated.has("/stereo_nav/IMU"));
 }
 
