@@ -43,8 +43,10 @@ DiskWatch::State DiskWatch::state() const {
   if (samples_.empty()) return State::kStarting;
   if (bytesFree() <= reserve_bytes_) return State::kFull;
   const auto left = secondsLeft();
-  if (left) return *left < warn_before_s_ ? State::kLow : State::kGood;
-  return samples_.back().time_s - samples_.front().time_s < kSilence_s ? State::kStarting : State::kSilent;
+  if (left && *left < warn_before_s_) return State::kLow;
+  // The first seconds' rate is that of connecting.
+  if (samples_.back().time_s - samples_.front().time_s < kSilence_s) return State::kStarting;
+  return left ? State::kGood : State::kSilent;
 }
 
 std::string DiskWatch::text() const {

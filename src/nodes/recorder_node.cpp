@@ -24,16 +24,22 @@ RecorderParams readParams(const ros::NodeHandle& private_handle) {
   return params;
 }
 
+/// Absolute, so that what is said of it can be found: roslaunch starts nodes in ROS_HOME.
 fs::path makeFolder(const RecorderParams& params) {
+  const fs::path folder = fs::absolute(params.folder);
   std::error_code error;
-  fs::create_directories(params.folder, error);
-  if (error) throw ParameterError("~folder " + params.folder + " cannot be made: " + error.message());
-  const auto space = fs::space(params.folder, error);
-  if (!error && static_cast<double>(space.available) < params.reserve_gb * kGiga) {
-    throw ParameterError("~folder " + params.folder + " has less than ~reserve_gb = " +
-                         std::to_string(params.reserve_gb) + " GB free; delete old recordings");
+  fs::create_directories(folder, error);
+  if (error) throw ParameterError("~folder " + folder.string() + " cannot be made: " + error.message());
+  const auto space = fs::space(folder, error);
+  const double free_gb = static_cast<double>(space.available) / kGiga;
+  if (!error && free_gb < params.reserve_gb) {
+    std::ostringstream text;
+    text << "~folder " << folder.string() << " has " << free_gb
+         << " GB free, less than ~reserve_gb = " << params.reserve_gb
+         << "; delete old recordings or record to another disk";
+    throw ParameterError(text.str());
   }
-  return params.folder;
+  return folder;
 }
 
 /// Everything that is needed to run the odometry on the recording later, and what the robot said meanwhile.
@@ -111,9 +117,17 @@ std::uint64_t RecorderNode::recordedBytes() const {
 void RecorderNode::watch(const ros::WallTimerEvent& /*event*/) {
   std::error_code error;
   const auto space = fs::space(folder_, error);
+  if (error) {
+    unreadable_ = "the folder " + folder_.string() + " cannot be looked at: " + error.message() +
+                  "; was its disk unplugged, or the folder removed?";
+    updater_.update();
+    ROS_ERROR_STREAM_THROTTLE(kRepeat_s, unreadable_);
+    return;
+  }
+  unreadable_.clear();
   const std::uint64_t bytes = recordedBytes();
   const ros::WallTime now = ros::WallTime::now();
-  disk_.add(now.toSec(), bytes - std::min(bytes, bytes_before_), error ? 0 : space.available);
+  disk_.add(now.toSec(), bytes - std::min(bytes, bytes_before_), space.available);
   updater_.update();
 
   const DiskWatch::State state = disk_.state();
@@ -135,6 +149,7 @@ void RecorderNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& statu
                                                     : Level::WARN,
                  disk_.text());
   status.add("folder", folder_.string());
+  if (!unreadable_.empty()) status.summary(Level::ERROR, unreadable_);
   status.addf("rate [MB/s]", "%.2f", disk_.rate() / 1e6);
   status.addf("written [MB]", "%.1f", static_cast<double>(disk_.bytesWritten()) / 1e6);
   status.addf("free [GB]", "%.2f", static_cast<double>(disk_.bytesFree()) / 1e9);

@@ -1,4 +1,6 @@
 // A simulated robot at real time, in place of stereo_capture and imu_bridge.
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 #include "package_files.h"
@@ -18,6 +20,23 @@ struct SimulatedRig {
   Eigen::Isometry3d T_base_imu = Eigen::Isometry3d::Identity();
 };
 
+/// Of one camera of the rig file; without a URL where stereo_capture looks and saves.
+auto loadCalibration(const std::string& url, const std::string& side) {
+  if (!url.empty()) return sim::loadCameraCalibration(ros_io::pathOfUrl(url));
+  const char *ros_home = std::getenv("ROS_HOME"), *home = std::getenv("HOME");
+  const std::filesystem::path base = ros_home != nullptr
+                                         ? std::filesystem::path(ros_home)
+                                         : std::filesystem::path(home != nullptr ? home : "") / ".ros";
+  const std::string path = (base / "camera_info" / (side + ".yaml")).string();
+  if (!std::filesystem::exists(path)) {
+    throw ParameterError("the rig file names no calibration of the " + side + " camera, and there is no " +
+                         path + "; calibrate (calibrate.launch), or give cameras." + side +
+                         ".calibration in the rig file, e.g. package://stereo_nav/config/thesis/" + side +
+                         ".yaml");
+  }
+  return sim::loadCameraCalibration(path);
+}
+
 /// The thesis' rig where `~rig` names no file; cameras sit where the scenario says then.
 SimulatedRig readRig(const ros::NodeHandle& private_node, sim::RigParams& cameras) {
   const auto rig = private_node.param<std::string>("rig", "");
@@ -31,8 +50,8 @@ SimulatedRig readRig(const ros::NodeHandle& private_node, sim::RigParams& camera
   cameras.camera_roll_deg = mounting.camera.roll_deg;
   cameras.camera_pitch_deg = mounting.camera.pitch_deg;
   cameras.camera_yaw_deg = mounting.camera.yaw_deg;
-  return {{sim::loadCameraCalibration(ros_io::pathOfUrl(setup.params.left.calibration)),
-           sim::loadCameraCalibration(ros_io::pathOfUrl(setup.params.right.calibration))},
+  return {{loadCalibration(setup.params.left.calibration, "left"),
+           loadCalibration(setup.params.right.calibration, "right")},
           mounting.imu.T_base_sensor()};
 }
 

@@ -1,6 +1,7 @@
 #include "stereo_nav/params/parameters.h"
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <sstream>
 
@@ -213,7 +214,13 @@ YAML::Node loadYamlFile(const std::string& path) {
   try {
     return YAML::LoadFile(path);
   } catch (const YAML::BadFile&) {
-    throw ParameterError(path + ": cannot be read; does the file exist, and may this user read it?");
+    // roslaunch starts nodes in ROS_HOME, not in the folder that it was called from.
+    const std::string where =
+        std::filesystem::path(path).is_relative()
+            ? " in " + std::filesystem::current_path().string() + " (launch files want absolute paths)"
+            : "";
+    throw ParameterError(path + ": cannot be read" + where +
+                         "; does the file exist, and may this user read it?");
   } catch (const YAML::Exception& error) {
     throw ParameterError(path + ": not valid YAML: " + error.what());
   }

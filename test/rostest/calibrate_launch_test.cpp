@@ -165,9 +165,13 @@ TEST_F(CalibrateLaunch, TheButtonsLeadToASavedCalibrationThatIsGood) {
   for (const std::string side : {"left", "right"}) {
     EXPECT_TRUE(ros::service::waitForService("camera/" + side + "/set_camera_info", ros::Duration(60)));
   }
-  bool own_stamps = false;  // roscpp reads `_stamps:=true` of a command line as a bool
-  EXPECT_TRUE(ros::param::get("stereo_capture/stamps", own_stamps));
-  EXPECT_TRUE(own_stamps) << "the calibrator needs each image's own time";
+  // `_stamps:=true` of the command line is a bool there until the node, its services up, writes back what it
+  // has read, which is text.
+  std::string stamps;
+  for (int attempt = 0; attempt < 600 && !ros::param::get("stereo_capture/stamps", stamps); ++attempt) {
+    ros::WallDuration(0.1).sleep();
+  }
+  EXPECT_EQ(stamps, "true") << "the calibrator needs each image's own time";
 
   User user(screen, board);
   const bool ended = user.calibrateUntilEnd(launched, 300.0);

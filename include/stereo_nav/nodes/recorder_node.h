@@ -42,6 +42,7 @@ class RecorderNode {
   ros::NodeHandle handle_;
   RecorderParams params_;
   std::filesystem::path folder_;
+  std::string unreadable_;      ///< why the folder cannot be looked at; empty while it can
   std::uint64_t bytes_before_;  ///< of earlier recordings in the same folder
   DiskWatch disk_;
   DiskWatch::State said_ = DiskWatch::State::kStarting;

@@ -30,6 +30,15 @@ TEST(DiskWatch, WarnsBeforeTheDiskIsFullAndSaysWhenItIs) {
   EXPECT_EQ(disk.secondsLeft().value(), 0.0);
 }
 
+TEST(DiskWatch, TheRateOfTheFirstSecondsIsNotYetSaid) {
+  DiskWatch disk(kGiga, 600.0);
+  disk.add(0.0, 0, 50 * kGiga);
+  disk.add(1.0, 5000, 50 * kGiga);  // by this it would last for months
+  EXPECT_EQ(disk.state(), DiskWatch::State::kStarting);
+  disk.add(5.0, 20 * kMega, 50 * kGiga);
+  EXPECT_EQ(disk.state(), DiskWatch::State::kGood);
+}
+
 TEST(DiskWatch, ARecordingThatDoesNotGrowIsSaid) {
   DiskWatch disk(kGiga, 600.0);
   for (int t = 0; t <= 4; ++t) disk.add(t, 5000, 100 * kGiga);
