@@ -5,7 +5,7 @@
 #
 # Starts robot.launch simulated:=true and visualise.launch, takes the picture SECONDS (default 18) after the first odometry.
 # Default output: docs/images/rviz_VIEW.png. Needs the built package in the environment
-# (source BUILD_DIR/devel/setup.bash), and rviz, Xvfb and ImageMagick: apt install rviz xvfb imagemagick
+# (source BUILD_DIR/devel/setup.bash), and rviz, Xvfb and ImageMagick: scripts/install_dependencies.sh visualise
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
 
