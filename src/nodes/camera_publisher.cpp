@@ -5,11 +5,12 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
+#include "stereo_nav/ros_io/rig.h"
+
 namespace stereo_nav::nodes {
 namespace {
 
 constexpr std::uint32_t kQueue = 4;  // short: a slow subscriber gets the newest images
-const std::string kDefaultUrl = "file://${ROS_HOME}/camera_info/${NAME}.yaml";
 
 }  // namespace
 
@@ -18,7 +19,7 @@ CameraPublisher::CameraPublisher(const ros::NodeHandle& handle, const std::strin
     : transport_(handle),
       publisher_(transport_.advertiseCamera("image_raw", kQueue)),
       name_(name),
-      url_(calibration_url.empty() ? kDefaultUrl : calibration_url),
+      url_(calibration_url.empty() ? ros_io::kDefaultCalibrationUrl : calibration_url),
       frame_id_(frame_id),
       calibration_(handle, name, url_) {
   calibration_.loadCameraInfo(url_);

@@ -1,5 +1,4 @@
 // A simulated robot at real time, in place of stereo_capture and imu_bridge.
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -20,15 +19,10 @@ struct SimulatedRig {
   Eigen::Isometry3d T_base_imu = Eigen::Isometry3d::Identity();
 };
 
-/// Of one camera of the rig file; without a URL where stereo_capture looks and saves.
+/// Of one camera of the rig file.
 auto loadCalibration(const std::string& url, const std::string& side) {
-  if (!url.empty()) return sim::loadCameraCalibration(ros_io::pathOfUrl(url));
-  const char *ros_home = std::getenv("ROS_HOME"), *home = std::getenv("HOME");
-  const std::filesystem::path base = ros_home != nullptr
-                                         ? std::filesystem::path(ros_home)
-                                         : std::filesystem::path(home != nullptr ? home : "") / ".ros";
-  const std::string path = (base / "camera_info" / (side + ".yaml")).string();
-  if (!std::filesystem::exists(path)) {
+  const std::string path = ros_io::pathOfUrl(url.empty() ? ros_io::kDefaultCalibrationUrl : url, side);
+  if (url.empty() && !std::filesystem::exists(path)) {
     throw ParameterError("the rig file names no calibration of the " + side + " camera, and there is no " +
                          path + "; calibrate (calibrate.launch), or give cameras." + side +
                          ".calibration in the rig file, e.g. package://stereo_nav/config/thesis/" + side +

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "stereo_nav/params/parameters.h"
 
@@ -17,6 +18,18 @@ constexpr double kRadPerDeg = M_PI / 180.0;
 
 bool startsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
+}
+
+std::string replaced(std::string text, const std::string& name, const std::string& value) {
+  const std::size_t at = text.find(name);
+  return at == std::string::npos ? text : text.replace(at, name.size(), value);
+}
+
+/// As ROS itself finds it.
+std::string rosHome() {
+  if (const char* ros_home = std::getenv("ROS_HOME")) return ros_home;
+  const char* home = std::getenv("HOME");
+  return std::string(home != nullptr ? home : "") + "/.ros";
 }
 
 void refuseUnknownSections(const YAML::Node& rig, const std::string& path) {
@@ -88,7 +101,8 @@ Mounting loadMounting(const std::string& path) {
   return mounting;
 }
 
-std::string pathOfUrl(const std::string& url) {
+std::string pathOfUrl(const std::string& named_url, const std::string& camera_name) {
+  const std::string url = replaced(replaced(named_url, "${ROS_HOME}", rosHome()), "${NAME}", camera_name);
   const std::string file = "file://", package = "package://";
   if (startsWith(url, file)) return url.substr(file.size());
   if (!startsWith(url, package)) {

@@ -52,8 +52,12 @@ std::string rigSectionName(const std::string& path, const std::string& section);
 /// Reads and checks the section `mounting`. Throws ParameterError.
 Mounting loadMounting(const std::string& path);
 
-/// Path of a URL as calibrations are named by: package://PACKAGE/PATH, file:///PATH or a plain path. Throws
-/// ParameterError for another scheme and an unknown package.
-std::string pathOfUrl(const std::string& url);
+/// Where the calibration of a camera that none is named for is looked for, and saved.
+inline constexpr const char* kDefaultCalibrationUrl = "file://${ROS_HOME}/camera_info/${NAME}.yaml";
+
+/// Path of a URL as calibrations are named by: package://PACKAGE/PATH, file:///PATH or a plain path, with
+/// ${ROS_HOME} and ${NAME}, the camera's, as camera_info_manager replaces them. Throws ParameterError for
+/// another scheme and an unknown package.
+std::string pathOfUrl(const std::string& url, const std::string& camera_name = "");
 
 }  // namespace stereo_nav::ros_io
