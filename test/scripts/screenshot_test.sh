@@ -15,10 +15,13 @@ done
 set +u && source "$build_dir/devel/setup.bash" && set -u
 picture=$(mktemp --suffix=.png)
 trap 'rm -f "$picture"' EXIT
+# fail MESSAGE: ends the test.
+fail() { single_case "$result" scripts failure "$1"; echo "$1"; exit 1; }
 
-"$top/scripts/screenshot.sh" --at 4 --output "$picture"
+"$top/scripts/screenshot.sh" --at 4 --output "$picture" || fail "screenshot.sh ended with status $?"
 read -r size colours < <(identify -format '%wx%h %k\n' "$picture")
 echo "$size, $colours colours"
-[[ $size == 1400x850 ]] || { echo "not the size of the screen"; exit 1; }
+[[ $size == 1400x850 ]] || fail "$size is not the size of the screen"
 # An empty window has about 60; camera image, disparity and features bring the rest.
-[[ $colours -ge 150 ]] || { echo "the window is nearly empty: $colours colours"; exit 1; }
+[[ $colours -ge 150 ]] || fail "the window is nearly empty: $colours colours"
+single_case "$result" scripts passed
