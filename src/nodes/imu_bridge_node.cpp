@@ -1,13 +1,12 @@
 #include "stereo_nav/nodes/imu_bridge_node.h"
 
-#include <geometry_msgs/Quaternion.h>
-#include <sensor_msgs/Imu.h>
 #include <std_msgs/String.h>
 
 #include <chrono>
 #include <filesystem>
 #include <sstream>
 
+#include "imu_messages.h"
 #include "stereo_nav/ros_io/parameter_server.h"
 #include "stereo_nav/ros_io/rig.h"
 #include "stereo_nav/ros_io/topics.h"
@@ -18,7 +17,6 @@ namespace {
 constexpr double kRepeat_s = 10.0;
 /// Beyond the time of the measurement itself.
 constexpr double kCalibrationPatience_s = 5.0;
-using Covariance = boost::array<double, 9>;
 
 ImuBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
   ImuBridgeParams params;
@@ -39,52 +37,6 @@ const ros::NodeHandle& announce(const ros::NodeHandle& private_handle, const Imu
 imu::ImuCalibration readCalibration(const std::string& path) {
   if (path.empty() || !std::filesystem::exists(path)) return {};
   return imu::loadCalibration(path);
-}
-
-void setDiagonal(Covariance& covariance, double xx, double yy, double zz) {
-  covariance = {xx, 0, 0, 0, yy, 0, 0, 0, zz};
-}
-
-/// As REP-145 and sensor_msgs/Imu mark a part that the module does not deliver.
-void setAbsent(Covariance& covariance) {
-  covariance.fill(0.0);
-  covariance[0] = -1.0;
-}
-
-geometry_msgs::Quaternion toMessage(const Eigen::Quaterniond& q) {
-  geometry_msgs::Quaternion message;
-  message.x = q.x();
-  message.y = q.y();
-  message.z = q.z();
-  message.w = q.w();
-  return message;
-}
-
-void fillVector(const std::optional<Eigen::Vector3d>& v, double stddev, geometry_msgs::Vector3& message,
-                Covariance& covariance) {
-  if (!v) return setAbsent(covariance);
-  message.x = v->x();
-  message.y = v->y();
-  message.z = v->z();
-  setDiagonal(covariance, stddev * stddev, stddev * stddev, stddev * stddev);
-}
-
-sensor_msgs::Imu toMessage(const imu::ImuEstimate& estimate, const ImuBridgeParams& params, ros::Time stamp) {
-  sensor_msgs::Imu message;
-  message.header.stamp = stamp;
-  message.header.frame_id = params.frame_id;
-  if (estimate.q_world_imu) {
-    message.orientation = toMessage(*estimate.q_world_imu);
-    const double tilt = params.tilt_stddev_rad * params.tilt_stddev_rad;
-    setDiagonal(message.orientation_covariance, tilt, tilt, params.yaw_stddev_rad * params.yaw_stddev_rad);
-  } else {
-    setAbsent(message.orientation_covariance);
-  }
-  fillVector(estimate.angular_velocity, params.angular_velocity_stddev_rad_s, message.angular_velocity,
-             message.angular_velocity_covariance);
-  fillVector(estimate.linear_acceleration, params.linear_acceleration_stddev_m_s2,
-             message.linear_acceleration, message.linear_acceleration_covariance);
-  return message;
 }
 
 }  // namespace
