@@ -68,12 +68,6 @@ TransformLookup lookupIn(tf2_ros::Buffer& buffer) {
   };
 }
 
-bool isFinite(const vo::ImuSample& sample) {
-  return (!sample.q_world_imu || sample.q_world_imu->coeffs().allFinite()) &&
-         (!sample.angular_velocity || sample.angular_velocity->allFinite()) &&
-         (!sample.linear_acceleration || sample.linear_acceleration->allFinite());
-}
-
 /// Whether stamps follow the running clock of this host, i.e. are not those of a replay.
 bool isLive(const ros::Time& stamp) {
   constexpr double kLive_s = 5.0;
@@ -90,18 +84,16 @@ VisualOdometryNode::VisualOdometryNode(const ros::NodeHandle& handle, const ros:
       params_(readNodeParams(private_handle_)),
       tf_listener_(tf_buffer_),
       health_(handle_, private_handle_, name),
-      synchroniser_(synchroniserParams(params_.synchronisation, readOdometryConfig(private_handle_))),
-      last_steady_time_(std::chrono::steady_clock::now()),
       inbox_(params_.waiting),
       session_(params_, readOdometryConfig(private_handle_), lookupIn(tf_buffer_)),
       publisher_(handle_, params_),
       disparity_view_(handle_),
-      image_transport_(handle_) {
-  monitor_ = std::make_unique<InputMonitor>(params_.input_timeout_s, watchedSeconds());
+      inputs_(handle_, private_handle_, params_,
+              synchroniserParams(params_.synchronisation, readOdometryConfig(private_handle_)), inbox_,
+              health_) {
   worker_ = std::thread(&VisualOdometryNode::work, this);
   reset_service_ = handle_.advertiseService("vo/reset", &VisualOdometryNode::handleReset, this);
   set_pose_service_ = handle_.advertiseService("vo/set_pose", &VisualOdometryNode::handleSetPose, this);
-  subscribe();
   offerReconfiguration();
   timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s), &VisualOdometryNode::handleTimer, this);
 }
@@ -116,7 +108,7 @@ void VisualOdometryNode::offerReconfiguration() {
   ros_io::writeParameters(private_handle_, params_);
   reconfigure_server_ = std::make_unique<dynamic_reconfigure::Server<VisualOdometryConfig>>(private_handle_);
   reconfigure_server_->setCallback([this](const VisualOdometryConfig& config, std::uint32_t) {
-    monitor_->setTimeout(config.input_timeout_s);
+    inputs_.setTimeout(config.input_timeout_s);
     const std::lock_guard<std::mutex> lock(session_mutex_);
     publisher_.setLive(config.publish_tf, config.path_spacing_m);
   });
@@ -131,155 +123,6 @@ void VisualOdometryNode::offerReconfiguration() {
     const std::lock_guard<std::mutex> lock(session_mutex_);
     session_.setUncertainty(uncertainty);
   });
-}
-
-std::size_t VisualOdometryNode::watch(const std::string& topic, bool stamped, const std::string& remedy,
-                                      std::function<unsigned int()> publishers) {
-  return monitor_->add({handle_.resolveName(topic), remedy, stamped, std::move(publishers)});
-}
-
-void VisualOdometryNode::subscribe() {
-  constexpr std::uint32_t kQueue = 20;  // callbacks are short; this only bridges a busy moment
-  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  const image_transport::TransportHints image_hints("raw", hints, private_handle_);
-  const std::string rectify =
-      "It comes from image_proc/rectify, which needs the raw image and its camera_info";
-
-  left_subscriber_ = image_transport_.subscribe("camera/left/image_rect", kQueue,
-                                                &VisualOdometryNode::handleLeft, this, image_hints);
-  left_input_ =
-      watch("camera/left/image_rect", true, rectify, [this] { return left_subscriber_.getNumPublishers(); });
-  right_subscriber_ = image_transport_.subscribe("camera/right/image_rect", kQueue,
-                                                 &VisualOdometryNode::handleRight, this, image_hints);
-  right_input_ = watch("camera/right/image_rect", true, rectify,
-                       [this] { return right_subscriber_.getNumPublishers(); });
-
-  if (disparityUse(readOdometryConfig(private_handle_)) != FrameSynchroniserParams::Disparity::kNone) {
-    disparity_subscriber_ =
-        handle_.subscribe("camera/disparity", kQueue, &VisualOdometryNode::handleDisparity, this, hints);
-    disparity_input_ =
-        watch("camera/disparity", true,
-              "It comes from stereo_image_proc/disparity, which needs both rectified images and "
-              "camera_infos with equal stamps (see image_proc.launch)",
-              [this] { return disparity_subscriber_.getNumPublishers(); });
-  }
-  sync_subscriber_ = handle_.subscribe("camera/sync", kQueue, &VisualOdometryNode::handleSync, this, hints);
-
-  const auto subscribeInfo = [&](const std::string& topic, ros::Subscriber& subscriber,
-                                 sensor_msgs::CameraInfoConstPtr& slot) {
-    const std::size_t input = watch(topic, false, "The camera driver publishes it with each image",
-                                    [&subscriber] { return subscriber.getNumPublishers(); });
-    subscriber = handle_.subscribe<sensor_msgs::CameraInfo>(
-        topic, kQueue,
-        [this, &slot, input](const sensor_msgs::CameraInfoConstPtr& info) { handleInfo(slot, input, info); },
-        ros::VoidConstPtr(), hints);
-  };
-  subscribeInfo("camera/left/camera_info", left_info_subscriber_, setup_.left_info);
-  subscribeInfo("camera/right/camera_info", right_info_subscriber_, setup_.right_info);
-  subscribeImu();
-}
-
-void VisualOdometryNode::subscribeImu() {
-  constexpr std::uint32_t kImuQueue = 500;
-  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  std::string topic;
-  switch (params_.imu) {
-    case VisualOdometryParams::Imu::kNone:
-      return;
-    case VisualOdometryParams::Imu::kImu:
-      topic = ros_io::topics::kImu;
-      imu_subscriber_ = handle_.subscribe(topic, kImuQueue, &VisualOdometryNode::handleImu, this, hints);
-      break;
-    case VisualOdometryParams::Imu::kQuaternion:
-      topic = ros_io::topics::kImuQuaternion;
-      imu_subscriber_ =
-          handle_.subscribe(topic, kImuQueue, &VisualOdometryNode::handleQuaternion, this, hints);
-      break;
-  }
-  imu_input_ = watch(
-      topic, false,
-      "Rotation comes from the images alone until it runs. It comes from imu_bridge; without an IMU set "
-      "the parameter `imu: none`",
-      [this] { return imu_subscriber_.getNumPublishers(); });
-}
-
-void VisualOdometryNode::handleLeft(const sensor_msgs::ImageConstPtr& image) {
-  const auto arrival = std::chrono::steady_clock::now();
-  monitor_->received(left_input_, image->header.stamp, watchedSeconds());
-  ++lefts_received_;
-  synchroniser_.addLeft(image, arrival);
-  passOnFrames();
-}
-
-void VisualOdometryNode::handleRight(const sensor_msgs::ImageConstPtr& image) {
-  monitor_->received(right_input_, image->header.stamp, watchedSeconds());
-  synchroniser_.addRight(image);
-  passOnFrames();
-}
-
-void VisualOdometryNode::handleDisparity(const stereo_msgs::DisparityImageConstPtr& disparity) {
-  monitor_->received(disparity_input_, disparity->header.stamp, watchedSeconds());
-  synchroniser_.addDisparity(disparity);
-  passOnFrames();
-}
-
-void VisualOdometryNode::handleSync(const StereoSyncConstPtr& sync) {
-  synchroniser_.addSync(sync);
-  passOnFrames();
-}
-
-void VisualOdometryNode::passOnFrames() {
-  while (auto frame = synchroniser_.take()) {
-    monitor_->frameCompleted(watchedSeconds());
-    inbox_.push(std::move(*frame));
-  }
-  const std::lock_guard<std::mutex> lock(setup_mutex_);
-  counts_.frames = lefts_received_;
-  counts_.dropped = synchroniser_.dropped() + inbox_.framesDropped();
-}
-
-void VisualOdometryNode::handleInfo(sensor_msgs::CameraInfoConstPtr& slot, std::size_t input,
-                                    const sensor_msgs::CameraInfoConstPtr& info) {
-  monitor_->received(input, info->header.stamp, watchedSeconds());
-  const std::lock_guard<std::mutex> lock(setup_mutex_);
-  slot = info;
-}
-
-void VisualOdometryNode::handleImu(const sensor_msgs::ImuConstPtr& imu) {
-  monitor_->received(imu_input_, imu->header.stamp, watchedSeconds());
-  addImuSample(ros_io::toImuSample(*imu), imu->header.frame_id);
-}
-
-void VisualOdometryNode::handleQuaternion(const geometry_msgs::QuaternionConstPtr& quaternion) {
-  const ros::Time now = ros::Time::now();
-  monitor_->received(imu_input_, now, watchedSeconds());
-  vo::ImuSample sample;
-  sample.time_s = now.toSec();
-  const Eigen::Quaterniond q(quaternion->w, quaternion->x, quaternion->y, quaternion->z);
-  constexpr double kMinNorm = 0.1;
-  if (q.norm() > kMinNorm) sample.q_world_imu = q.normalized();
-  // The thesis' attitude is front-left-up, as the base's axes.
-  addImuSample(sample, params_.base_frame);
-}
-
-void VisualOdometryNode::addImuSample(const vo::ImuSample& sample, const std::string& frame_id) {
-  const std::string frame = params_.imu_frame.empty() ? frame_id : params_.imu_frame;
-  const bool holds_anything = sample.q_world_imu || sample.angular_velocity;
-  if (frame.empty() || !holds_anything || !isFinite(sample)) {
-    ++imu_refused_;
-    health_.raise("imu", false,
-                  frame.empty()
-                      ? "IMU messages carry no frame id, so that nobody can say how the IMU is mounted; they "
-                        "are not used. Set it in the driver, or the parameter imu_frame"
-                      : "IMU messages hold NaN, or neither orientation nor rates; they are not used. Look at "
-                        "`rostopic echo` of the topic, then at the driver");
-    return;
-  }
-  {
-    const std::lock_guard<std::mutex> lock(setup_mutex_);
-    setup_.imu_frame = frame;
-  }
-  inbox_.addImu(sample);
 }
 
 bool VisualOdometryNode::handleReset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
@@ -315,39 +158,10 @@ bool VisualOdometryNode::handleSetPose(SetPose::Request& request, SetPose::Respo
 }
 
 void VisualOdometryNode::handleTimer(const ros::WallTimerEvent&) {
-  const double now_s = watchedSeconds();
+  inputs_.tick();
   if (++ticks_ % kTicksPerReport != 0) return;
-  health_.replace("silent: ", true, monitor_->silentInputs(now_s));
-  health_.replace("synchronisation", true, {{"", monitor_->unsynchronised(now_s)}});
-  health_.replace("dropped frames", false, {{"", newDrops()}});
-  health_.setCount("frames without late IMU", inbox_.framesWithoutImu());
-  health_.setCount("IMU messages dropped", inbox_.imuDropped() + imu_refused_);
+  inputs_.report();
   health_.publishDiagnostics();
-}
-
-std::string VisualOdometryNode::newDrops() {
-  const std::uint64_t dropped = synchroniser_.dropped() + inbox_.framesDropped();
-  const std::uint64_t since_last = dropped - std::exchange(dropped_reported_, dropped);
-  if (since_last == 0) return "";
-  return std::to_string(since_last) +
-         " of the last second's frames were dropped: parts of them were lost on the way, or the computer is "
-         "too slow "
-         "for the cameras. Run the odometry as a nodelet, or lower rate or resolution";
-}
-
-double VisualOdometryNode::watchedSeconds() {
-  // A paused replay is no silence: time counts only while the ROS clock moves.
-  const auto steady_now = std::chrono::steady_clock::now();
-  if (ros::Time::isSimTime()) {
-    const ros::Time ros_now = ros::Time::now();
-    if (ros_now == last_ros_time_) return watched_s_;
-    last_ros_time_ = ros_now;
-  }
-  constexpr double kLongestTick_s = 2.0 * kTimerPeriod_s;  // anything longer was a pause
-  const std::chrono::duration<double> elapsed = steady_now - last_steady_time_;
-  watched_s_ += std::min(elapsed.count(), kLongestTick_s);
-  last_steady_time_ = steady_now;
-  return watched_s_;
 }
 
 void VisualOdometryNode::work() {
@@ -362,17 +176,11 @@ void VisualOdometryNode::work() {
 }
 
 void VisualOdometryNode::processFrame(const Inbox::Work& work) {
-  SensorSetup setup;
-  FrameCounts counts;
-  {
-    const std::lock_guard<std::mutex> lock(setup_mutex_);
-    setup = setup_;
-    counts = counts_;
-  }
+  FrameCounts counts = inputs_.counts();
   SessionOutput output;
   {
     const std::lock_guard<std::mutex> lock(session_mutex_);
-    output = session_.process(work, setup, isLive(work.frame.left_stamp));
+    output = session_.process(work, inputs_.setup(), isLive(work.frame.left_stamp));
     counts.lost = session_.framesLost();
     if (work.frame.after_jump) publisher_.forgetPath();
     publisher_.publish(work.frame, output, counts);

@@ -37,10 +37,7 @@ eval::StampedPose toStampedPose(const ros::Time& stamp, const geometry_msgs::Pos
 }
 
 void checkFinite(const vo::ImuSample& sample, const std::string& topic) {
-  const bool finite = (!sample.q_world_imu || sample.q_world_imu->coeffs().allFinite()) &&
-                      (!sample.angular_velocity || sample.angular_velocity->allFinite()) &&
-                      (!sample.linear_acceleration || sample.linear_acceleration->allFinite());
-  if (finite) return;
+  if (sample.isFinite()) return;
   std::ostringstream message;
   message.precision(15);
   message

@@ -11,6 +11,13 @@ struct ImuSample {
   std::optional<Eigen::Quaterniond> q_world_imu;       ///< attitude; its yaw may count from power-on
   std::optional<Eigen::Vector3d> angular_velocity;     ///< rad/s, IMU frame
   std::optional<Eigen::Vector3d> linear_acceleration;  ///< m/s^2, IMU frame, gravity included
+
+  /// Whether all that is delivered are numbers.
+  bool isFinite() const {
+    return (!q_world_imu || q_world_imu->coeffs().allFinite()) &&
+           (!angular_velocity || angular_velocity->allFinite()) &&
+           (!linear_acceleration || linear_acceleration->allFinite());
+  }
 };
 
 }  // namespace stereo_nav::vo
