@@ -64,6 +64,8 @@ void CaptureDiagnostics::describeCamera(capture::Side side, Status& status) {
   }
   const std::string calibration_problem = sources_.calibration_problem(side);
   if (!calibration_problem.empty()) status.mergeSummary(DiagnosticStatus::ERROR, calibration_problem);
+  const std::string calibration_warning = sources_.calibration_warning(side);
+  if (!calibration_warning.empty()) status.mergeSummary(DiagnosticStatus::WARN, calibration_warning);
   addCounts(camera, status);
 }
 

@@ -67,6 +67,11 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
   sources.calibration_problem = [this](capture::Side side) {
     return publisherOf(side).calibrationProblem(params_.width, params_.height);
   };
+  sources.calibration_warning = [this](capture::Side side) { return publisherOf(side).calibrationWarning(); };
+  for (const capture::Side side : {capture::Side::Left, capture::Side::Right}) {
+    const std::string warning = sources.calibration_warning(side);
+    if (!warning.empty()) ROS_WARN_STREAM(warning);
+  }
   sources.wanted_rate_hz = params_.rate_hz;
   diagnostics_ = std::make_unique<CaptureDiagnostics>(handle_, private_handle_, sources);
   if (setup_.params.load_image_proc) {

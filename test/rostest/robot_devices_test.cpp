@@ -20,6 +20,9 @@ TEST(RobotDevices, EachMissingDeviceIsNamed) {
   };
   EXPECT_TRUE(says("stereo_capture: Left camera", "no-left-camera")) << diagnostics.names();
   EXPECT_TRUE(says("stereo_capture: Right camera", "no-right-camera"));
+  for (const char* camera : {"stereo_capture: Left camera", "stereo_capture: Right camera"}) {
+    EXPECT_TRUE(says(camera, "is the example that comes with the package")) << diagnostics.textOf(camera);
+  }
   EXPECT_TRUE(says("imu_bridge: imu", "no-imu")) << diagnostics.textOf("imu_bridge: imu");
   EXPECT_TRUE(says("visual_odometry: odometry", "/camera/left/image_rect"));
   EXPECT_EQ(diagnostics.levelOf("rig_transforms: mounting"), 0);

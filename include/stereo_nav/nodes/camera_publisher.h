@@ -25,6 +25,8 @@ class CameraPublisher {
 
   /// What is wrong with the calibration for images of this size, with the remedy; empty when nothing is.
   std::string calibrationProblem(int width, int height);
+  /// What to know of a calibration that is good by itself, with the remedy; empty when there is nothing.
+  std::string calibrationWarning() const;
 
  private:
   std::string urlText();

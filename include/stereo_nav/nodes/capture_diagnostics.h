@@ -19,6 +19,7 @@ class CaptureDiagnostics {
     std::function<capture::StereoStatus()> status;
     /// What is wrong with a camera's calibration; empty when nothing is.
     std::function<std::string(capture::Side)> calibration_problem;
+    std::function<std::string(capture::Side)> calibration_warning;
     double wanted_rate_hz = 0.0;
   };
 
