@@ -154,7 +154,7 @@ void CameraWorker::deliver(V4l2Device& device, const LentBuffer& buffer) {
   frame.dequeued_ns = buffer.dequeued_ns;
   frame.decoding_ns = decoding_ns;
   frame.stamp_ns = clock_.monotonicStamp(buffer);
-  frame.time_ns = middleOfExposure(frame.stamp_ns, buffer.flags, exposure_s_);
+  frame.time_ns = middleOfExposure(frame.stamp_ns, buffer.flags, exposure_s_, config_.rolling_shutter_s);
   frame.sequence = buffer.sequence;
   frame.lost = sequence_.lost();
   if (exposure_s_) frame.exposure_s = *exposure_s_;

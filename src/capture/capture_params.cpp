@@ -33,6 +33,8 @@ void CaptureParams::describe(ParameterVisitor& visitor) {
                   "gain of both cameras in the driver's units; -1: as the camera is set");
   visitor.flag("match_exposure", match_exposure,
                "the right camera follows the exposure time and gain that the left one tells");
+  visitor.real("rolling_shutter_ms", rolling_shutter_ms, {0.0, 200.0}, "ms",
+               "time from the first row of an image to its last, of both cameras; 0: global shutter");
 }
 
 StereoConfig CaptureParams::toConfig() const {
@@ -42,6 +44,7 @@ StereoConfig CaptureParams::toConfig() const {
   config.left.encoding = encoding;
   config.left.buffers = buffers;
   config.left.stall_timeout_s = stall_timeout_s;
+  config.left.rolling_shutter_s = 1e-3 * rolling_shutter_ms;
   config.right = config.left;
   config.right.name = "right";
   config.max_skew_s = max_skew_s;

@@ -49,9 +49,9 @@ void DriverClock::recognise(const LentBuffer& buffer) {
 }
 
 std::int64_t middleOfExposure(std::int64_t stamp_ns, std::uint32_t buffer_flags,
-                              std::optional<double> exposure_s) {
-  if (!exposure_s) return stamp_ns;
-  const auto half_ns = static_cast<std::int64_t>(std::llround(*exposure_s * 0.5e9));
+                              std::optional<double> exposure_s, double rolling_shutter_s) {
+  const double frame_s = exposure_s.value_or(0.0) + rolling_shutter_s;
+  const auto half_ns = static_cast<std::int64_t>(std::llround(frame_s * 0.5e9));
   const bool start = (buffer_flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   return start ? stamp_ns + half_ns : stamp_ns - half_ns;
 }

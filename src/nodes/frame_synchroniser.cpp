@@ -77,6 +77,7 @@ FrameSynchroniser::Match FrameSynchroniser::matchRight(const ros::Time& left_sta
   const StereoSyncConstPtr sync = syncs_.find(left_stamp);
   if (!sync) return Match::kWaiting;
   frame.right_stamp = sync->right_stamp;
+  frame.rolling_shutter_s = sync->rolling_shutter_s;
   frame.right = rights_.find(left_stamp);  // one common stamp for the pair
   if (!frame.right) frame.right = rights_.find(sync->right_stamp);
   return frame.right ? Match::kFound : Match::kWaiting;

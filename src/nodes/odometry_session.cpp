@@ -142,6 +142,8 @@ bool OdometrySession::prepareImu(const SensorSetup& setup, SessionOutput& output
 }
 
 void OdometrySession::makeOdometry(SessionOutput& output) {
+  calibration_.left_raw_rows = ros_io::rawRows(*left_info_);
+  calibration_.right_raw_rows = ros_io::rawRows(*right_info_);
   odometry_ = vo::makeOdometry(config_, calibration_, T_base_camera_.linear().transpose() * R_base_imu_);
   const std::optional<BaseOdometry> before = std::move(base_);
   base_.emplace(params_.uncertainty, T_base_camera_);
@@ -172,6 +174,7 @@ bool OdometrySession::readImages(const FrameMessages& frame, SessionOutput& outp
   try {
     output.images.left_time_s = frame.left_stamp.toSec();
     output.images.right_time_s = frame.right_stamp.toSec();
+    output.images.readout_s = frame.rolling_shutter_s;
     output.images.left = ros_io::toMono8(frame.left);
     output.images.right = ros_io::toMono8(frame.right);
     if (frame.disparity) output.images.disparity = ros_io::toDisparityMap(*frame.disparity, calibration_);

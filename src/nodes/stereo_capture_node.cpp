@@ -120,6 +120,7 @@ void StereoCaptureNode::publishSync(const capture::StereoImages& images, const r
   sync.pairs_dropped = images.pairs_dropped;
   sync.left_exposure_s = pair.left.exposure_s;
   sync.right_exposure_s = pair.right.exposure_s;
+  sync.rolling_shutter_s = 1e-3 * params_.rolling_shutter_ms;
   sync_publisher_.publish(sync);
 }
 

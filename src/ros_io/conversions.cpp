@@ -1,10 +1,12 @@
 #include "stereo_nav/ros_io/conversions.h"
 
 #include <cv_bridge/cv_bridge.h>
+#include <image_geometry/pinhole_camera_model.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
@@ -116,6 +118,15 @@ cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image) {
   } catch (const cv_bridge::Exception& error) {
     throw InputError(std::string("image cannot be converted to grey: ") + error.what());
   }
+}
+
+cv::Mat rawRows(const sensor_msgs::CameraInfo& info) {
+  image_geometry::PinholeCameraModel camera;
+  camera.fromCameraInfo(info);
+  cv::Mat columns, rows;
+  cv::initUndistortRectifyMap(camera.intrinsicMatrix(), camera.distortionCoeffs(), camera.rotationMatrix(),
+                              camera.projectionMatrix(), camera.fullResolution(), CV_32FC1, columns, rows);
+  return rows;
 }
 
 cv::Mat toDisparityMap(const stereo_msgs::DisparityImage& message, const vo::StereoCalibration& calibration) {

@@ -31,7 +31,8 @@ std::vector<StampPair> pairBySync(const std::vector<ros::Time>& left, const std:
     if (!l || !r || left_used[*l] || right_used[*r]) continue;
     left_used[*l] = true;
     right_used[*r] = true;
-    pairs.push_back({*l, *r, message.left_stamp.toSec(), message.right_stamp.toSec()});
+    pairs.push_back(
+        {*l, *r, message.left_stamp.toSec(), message.right_stamp.toSec(), message.rolling_shutter_s});
   }
   return pairs;
 }
@@ -76,7 +77,7 @@ std::vector<StampPair> pairByNearest(const std::vector<ros::Time>& left,
     left_used[candidate.left] = true;
     right_used[candidate.right] = true;
     pairs.push_back(
-        {candidate.left, candidate.right, left[candidate.left].toSec(), right[candidate.right].toSec()});
+        {candidate.left, candidate.right, left[candidate.left].toSec(), right[candidate.right].toSec(), 0.0});
   }
   return pairs;
 }

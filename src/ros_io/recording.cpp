@@ -168,7 +168,14 @@ void Recording::pairImages(const RecordingOptions& options) {
   if (topics_.sync) {
     rosbag::View view(bag_, rosbag::TopicQuery(*topics_.sync));
     for (const rosbag::MessageInstance& message : view) {
-      if (const auto pair = message.instantiate<StereoSync>()) sync.push_back(*pair);
+      const auto pair = message.instantiate<StereoSync>();
+      if (!pair) {
+        throw InputError(path_ + ": " + *topics_.sync + " is " + message.getDataType() +
+                         " of another version of stereo_nav; leave the topic out (rosbag filter IN.bag "
+                         "OUT.bag \"topic != '" +
+                         *topics_.sync + "'\"): the images' own stamps pair them then");
+      }
+      sync.push_back(*pair);
     }
   }
   std::sort(left_stamps_.begin(), left_stamps_.end());
@@ -182,6 +189,9 @@ void Recording::pairImages(const RecordingOptions& options) {
             << left_stamps_.front().toSec() << " s, right ones at " << right_stamps_.front().toSec()
             << " s; are the cameras stamped by one clock?";
     throw InputError(message.str());
+  }
+  for (StampPair& pair : pairs_) {
+    pair.rolling_shutter_s = options.rolling_shutter_s.value_or(pair.rolling_shutter_s);
   }
   const double from_s = left_stamps_.front().toSec() + options.start_s;
   const double to_s = from_s + options.duration_s;
@@ -256,8 +266,8 @@ void Recording::forEachPair(const std::function<void(const RawPair&)>& handle) c
     if (pair == pair_of.end()) continue;
     (is_left ? waiting_left : waiting_right)[pair->second] = image;
     while (waiting_left.count(next) != 0 && waiting_right.count(next) != 0) {
-      handle({pairs_[next].left_time_s, pairs_[next].right_time_s, toMono8(waiting_left[next]),
-              toMono8(waiting_right[next])});
+      handle({pairs_[next].left_time_s, pairs_[next].right_time_s, pairs_[next].rolling_shutter_s,
+              toMono8(waiting_left[next]), toMono8(waiting_right[next])});
       waiting_left.erase(next);
       waiting_right.erase(next);
       ++next;

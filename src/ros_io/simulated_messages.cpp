@@ -80,6 +80,7 @@ PairMessages SimulatedMessages::pair(std::size_t index) const {
   messages.sync.right_sequence = instants.right_sequence;
   messages.sync.pairs_dropped = instants.pairs_dropped;
   messages.sync.left_exposure_s = messages.sync.right_exposure_s = exposure_s;
+  messages.sync.rolling_shutter_s = readout_s;
   messages.ground_truth = groundTruth(instants.left_s);
   messages.ground_truth.header.seq = header.seq;
   messages.available_s = std::max(instants.left_s, instants.right_s) + 0.5 * (exposure_s + readout_s);

@@ -33,6 +33,8 @@ void DisparityParams::describe(ParameterVisitor& visitor) {
 StereoProcessing::StereoProcessing(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right,
                                    const DisparityParams& disparity)
     : calibration_(toCalibration(left, right)) {
+  calibration_.left_raw_rows = rawRows(left);
+  calibration_.right_raw_rows = rawRows(right);
   model_.fromCameraInfo(left, right);
   // Rounding as in the nodelet's dynamic_reconfigure callback.
   processor_.setStereoType(disparity.stereo_algorithm == 0 ? stereo_image_proc::StereoProcessor::BM

@@ -87,6 +87,7 @@ std::vector<calibration::CameraOrientation> followCamera(const Options& options,
     vo::StereoFrame frame;
     frame.left_time_s = pair.left_time_s;
     frame.right_time_s = pair.right_time_s;
+    frame.readout_s = pair.rolling_shutter_s;
     frame.left = processing.rectifyLeft(pair.left);
     frame.right = processing.rectifyRight(pair.right);
     const vo::FrameResult result = odometry->process(frame);

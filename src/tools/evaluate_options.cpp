@@ -9,6 +9,8 @@
 namespace stereo_nav::tools {
 namespace {
 
+constexpr double kMaxRollingShutter_s = 0.2;
+
 namespace po = boost::program_options;
 
 void checkValues(const EvaluateOptions& options) {
@@ -17,6 +19,9 @@ void checkValues(const EvaluateOptions& options) {
   }
   if (!(options.part.duration_s > 0.0))
     throw ros_io::InputError("--duration must be a number of seconds above 0");
+  const double rolling_shutter_s = options.part.rolling_shutter_s.value_or(0.0);
+  if (!(rolling_shutter_s >= 0.0 && rolling_shutter_s <= kMaxRollingShutter_s))
+    throw ros_io::InputError("--rolling-shutter-ms must be a number of milliseconds from 0 to 200");
   if (options.repeat < 1) throw ros_io::InputError("--repeat must be 1 or more");
 }
 
@@ -42,6 +47,8 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("output", po::value<std::string>(), "folder for the results (default: NAME_OF_BAG_evaluation)")  //
       ("start", po::value<double>(&options.part.start_s), "seconds of the recording to skip")           //
       ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")      //
+      ("rolling-shutter-ms", po::value<double>(),
+       "time from an image's first row to its last, instead of what the recording says; 0: global shutter")  //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;
@@ -55,6 +62,8 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
   if (values.count("ground-truth-frame") != 0) {
     options.ground_truth_frame = values["ground-truth-frame"].as<std::string>();
   }
+  if (values.count("rolling-shutter-ms") != 0)
+    options.part.rolling_shutter_s = 1e-3 * values["rolling-shutter-ms"].as<double>();
   options.output = values.count("output") != 0
                        ? values["output"].as<std::string>()
                        : std::filesystem::path(options.bag).stem().string() + "_evaluation";

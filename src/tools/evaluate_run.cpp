@@ -76,6 +76,7 @@ class Run {
     vo::StereoFrame frame;
     frame.left_time_s = pair.left_time_s;
     frame.right_time_s = pair.right_time_s;
+    frame.readout_s = pair.rolling_shutter_s;
     frame.left = processing_.rectifyLeft(pair.left);
     frame.right = processing_.rectifyRight(pair.right);
     eval::FrameRecord record;

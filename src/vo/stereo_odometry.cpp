@@ -25,7 +25,8 @@ StereoOdometry::StereoOdometry(const StereoParams& params, const StereoCalibrati
       stereo_(params.stereo, calibration),
       estimator_(params.motion, calibration),
       optimizer_(params.window, calibration),
-      imu_(params.imu, R_camera_imu) {
+      imu_(params.imu, R_camera_imu),
+      shutter_(calibration) {
   validateParameters(params, "stereo");
   calibration.validate();
 }
@@ -56,6 +57,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
   images.left_time_s = frame.left_time_s;
   images.right_time_s = frame.right_time_s;
   if (std::abs(images.skew_s()) < kNegligibleSkew_s) images.right_time_s = images.left_time_s;
+  shutter_.setReadout(frame.readout_s);
   clock.lap("pyramid");
 
   if (window_.empty()) {
@@ -85,6 +87,7 @@ void StereoOdometry::startAt(const Images& images, const Eigen::Isometry3d& T_ca
   first.skewed = images.skew_s() != 0.0;
   first.late_sigma.setConstant(kFirstTwistSigma * std::abs(images.skew_s()));
   twist_.reset();
+  row_twist_.setZero();
   movers_fill_view_ = false;
   last_left_time_s_ = images.left_time_s;
   last_skew_s_ = images.skew_s();
@@ -95,6 +98,7 @@ void StereoOdometry::startAt(const Images& images, const Eigen::Isometry3d& T_ca
   }
   last_view_ = first.view;
   makeKeyframe(images, result);
+  start_is_bent_ = !shutter_.isGlobal();
   learnEpipolarErrorAtStart();
   last_is_keyframe_ = true;
   if (landmarks_.size() < static_cast<std::size_t>(params_.min_inliers)) {
@@ -139,14 +143,17 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   StageClock clock(result.stage_times);
   const MotionPrior prior = motionPrior(images);
   const StereoView predicted = predict(images, prior);
+  row_twist_ = twistAt(predicted, prior);
   trackAll(images, predicted, twist_ || prior.R_camera_previous);
   clock.lap("track");
   StereoView guess = predicted;
   if (images.skew_s() == 0.0) {
     matchStereo(images, guess, 0.0);
+    straighten(guess, prior);
   } else {
     guess = leftOnlyView(prior, predicted);
     matchStereo(images, guess, epipolarSlack(prior.lateSigma()));
+    straighten(guess, prior);
     // Depth has to be freed from the motion between the stamps before it can be judged.
     const PoseEstimate rough = estimateFrom(foundTracks(), prior, guess);
     if (rough.converged) guess = rough.view;
@@ -161,6 +168,10 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   if (isCarriedAway(estimate, prior)) {
     movers_fill_view_ = true;
     estimate = estimatePose(tracksNear(predicted), prior, predicted);
+  }
+  if (start_is_bent_ && estimate.converged) {
+    straightenStart(twistAt(estimate.view, prior));
+    estimate = estimatePose(foundTracks(), prior, estimate.view);
   }
   clock.lap("estimate");
   if (!isAcceptable(estimate, prior, result)) return false;
@@ -230,7 +241,7 @@ void StereoOdometry::report(FrameResult& result) const {
     if (!track.found) continue;
     FeatureReport report;
     report.id = landmarks_[i].id;
-    report.current_px = toCv(track.seen.left_px);
+    report.current_px = toCv(track.in_image.left_px);
     report.previous_px = track.fresh ? report.current_px : toCv(track.last_px);
     report.fate = track.fresh            ? FeatureReport::Fate::kDetected
                   : track.inlier         ? FeatureReport::Fate::kInlier

@@ -24,7 +24,8 @@ void StereoOdometry::learnEpipolarError() {
     if (!tracks_[i].inlier || !seen.has_right || seen.noise > 1.0 ||
         !viewResidual(calibration_, view, landmarks_[i].p_world(), seen, residual))
       continue;
-    rows.add(seen.right_px, residual.error_px(3) - residual.error_px(1) + rows.at(seen.right_px).y());
+    const Eigen::Vector2d& px = tracks_[i].in_image.right_px;
+    rows.add(px, residual.error_px(3) - residual.error_px(1) + rows.at(px).y());
   }
   rows.learn();
 }
@@ -49,8 +50,8 @@ bool StereoOdometry::needsKeyframe() const {
   std::vector<double> parallax;  // px, that of the next frame, should everything move on as it did
   for (const Track& track : tracks_) {
     if (!track.inlier) continue;
-    parallax.push_back((track.seen.left_px - track.keyframe_px).norm() +
-                       (track.seen.left_px - track.last_px).norm());
+    parallax.push_back((track.in_image.left_px - track.keyframe_px).norm() +
+                       (track.in_image.left_px - track.last_px).norm());
   }
   if (static_cast<double>(parallax.size()) <
       params_.keyframes.min_tracked_share * static_cast<double>(keyframe_inliers_))
@@ -63,7 +64,7 @@ bool StereoOdometry::needsKeyframe() const {
 void StereoOdometry::makeKeyframe(const Images& images, FrameResult& result) {
   for (Track& track : tracks_) {
     track.alive = track.alive && track.inlier;
-    track.keyframe_px = track.seen.left_px;
+    track.keyframe_px = track.in_image.left_px;
   }
   replenish(images, result);
   keyframe_image_ = images.left;
@@ -78,7 +79,7 @@ void StereoOdometry::makeKeyframe(const Images& images, FrameResult& result) {
 void StereoOdometry::replenish(const Images& images, FrameResult& result) {
   std::vector<cv::Point2f> occupied;
   for (const Track& track : tracks_) {
-    if (track.alive) occupied.push_back(toCv(track.seen.left_px));
+    if (track.alive) occupied.push_back(toCv(track.in_image.left_px));
   }
   const StereoView& view = window_.back().view;
   const Eigen::Isometry3d T_world_camera = view.T_camera_world.inverse();
@@ -94,13 +95,14 @@ void StereoOdometry::replenish(const Images& images, FrameResult& result) {
     Landmark landmark;
     landmark.id = next_id_++;
     landmark.T_world_anchor = T_world_camera;
-    landmark.ray_depth = leftRay(calibration_, px);
-    landmark.ray_depth.z() = match->depth.inverse_depth;
+    landmark.ray_depth = shutter_.rayDepthAtStamp(px, match->depth.inverse_depth, row_twist_);
     Track track;
     track.keyframe_px = track.last_px = px;
-    track.seen.left_px = px;
-    track.seen.right_px = match->right_px;
-    track.seen.has_right = true;
+    track.in_image.left_px = px;
+    track.in_image.right_px = match->right_px;
+    track.in_image.has_right = true;
+    track.seen = shutter_.atStamp(track.in_image, view.T_camera_world * landmark.p_world(),
+                                  view.T_late_camera, row_twist_);
     track.found = track.inlier = true;
     landmark.views.push_back({static_cast<int>(window_.size()) - 1, track.seen});
     landmarks_.push_back(landmark);

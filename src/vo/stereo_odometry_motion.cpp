@@ -50,8 +50,34 @@ StereoView StereoOdometry::predict(const Images& images, const MotionPrior& prio
   return view;
 }
 
+Vector6d StereoOdometry::twistAt(const StereoView& view, const MotionPrior& prior) const {
+  return extrapolatedTwist(view.T_camera_world * prior.T_previous_world.inverse(), prior.interval_s,
+                           prior.previous_twist);
+}
+
+void StereoOdometry::straighten(const StereoView& view, const MotionPrior& prior) {
+  row_twist_ = twistAt(view, prior);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Track& track = tracks_[i];
+    if (!track.found) continue;
+    track.seen = shutter_.atStamp(track.in_image, view.T_camera_world * landmarks_[i].p_world(),
+                                  view.T_late_camera, row_twist_);
+  }
+}
+
+void StereoOdometry::straightenStart(const Vector6d& twist) {
+  start_is_bent_ = false;
+  const StereoView& view = window_.front().view;
+  for (Landmark& landmark : landmarks_) {
+    StereoObservation& seen = landmark.views.front().seen;
+    landmark.ray_depth = shutter_.rayDepthAtStamp(seen.left_px, landmark.ray_depth.z(), twist);
+    seen = shutter_.atStamp(seen, view.T_camera_world * landmark.p_world(), view.T_late_camera, twist);
+  }
+}
+
 StereoView StereoOdometry::leftOnlyView(const MotionPrior& prior, const StereoView& predicted) {
-  for (Track& track : tracks_) track.seen.has_right = false;
+  for (Track& track : tracks_) track.in_image.has_right = false;
+  straighten(predicted, prior);
   const PoseEstimate estimate = estimateFrom(foundTracks(), prior, predicted);
   return estimate.converged ? estimate.view : predicted;
 }
@@ -103,8 +129,10 @@ PoseEstimate StereoOdometry::estimateFrom(const std::vector<std::size_t>& tracks
 
 PoseEstimate StereoOdometry::estimatePose(const std::vector<std::size_t>& selected, const MotionPrior& prior,
                                           const StereoView& guess) {
+  straighten(guess, prior);
   const PoseEstimate rigid = estimateFrom(selected, prior, guess);
   if (!rigid.converged) return rigid;
+  straighten(rigid.view, prior);
   // Once more with all that agree with that motion, also those without a depth of their own in this frame.
   const std::vector<std::size_t> found = foundTracks();
   const PoseEstimate estimate = estimateFrom(found, prior, rigid.view);
@@ -128,9 +156,7 @@ void StereoOdometry::expectSkew(const Images& images, const MotionPrior& prior) 
   WindowFrame& frame = window_.back();
   frame.skewed = images.skew_s() != 0.0;
   if (!frame.skewed) return;
-  const Vector6d twist = extrapolatedTwist(frame.view.T_camera_world * prior.T_previous_world.inverse(),
-                                           prior.interval_s, prior.previous_twist);
-  frame.T_late_expected = expMotion(twist * images.skew_s());
+  frame.T_late_expected = expMotion(twistAt(frame.view, prior) * images.skew_s());
   frame.late_sigma = prior.lateSigma();
   if (prior.R_late_camera) frame.T_late_expected.linear() = *prior.R_late_camera;
 }

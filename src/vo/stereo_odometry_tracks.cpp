@@ -14,6 +14,11 @@ Eigen::Vector2d StereoOdometry::predictedPixel(std::size_t i, const StereoView& 
   return p.z() < kNearestDepth_m ? tracks_[i].last_px : projectLeft(calibration_, p);
 }
 
+Eigen::Vector2d StereoOdometry::predictedInImage(std::size_t i, const StereoView& view) const {
+  return shutter_.seenLeft(predictedPixel(i, view), view.T_camera_world * landmarks_[i].p_world(),
+                           row_twist_);
+}
+
 Eigen::Matrix2f StereoOdometry::patchStep(std::size_t i, const StereoView& view) const {
   // The keyframe is the last of the window as long as the current frame has no pose.
   const Eigen::Isometry3d T_keyframe_camera =
@@ -34,8 +39,8 @@ bool StereoOdometry::trackOne(const Images& images, std::size_t i, const Eigen::
                                     top_level, step, finest_level);
   track.found = match.has_value();
   if (!match) return false;
-  track.seen.left_px = toEigen(match->px);
-  track.seen.noise = 1 << finest_level;
+  track.in_image.left_px = toEigen(match->px);
+  track.in_image.noise = 1 << finest_level;
   return true;
 }
 
@@ -44,15 +49,15 @@ void StereoOdometry::trackAll(const Images& images, const StereoView& predicted,
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = tracks_[i];
     if (track.inlier) {
-      track.last_px = track.seen.left_px;
+      track.last_px = track.in_image.left_px;
       ++track.confirmations;
     }
     track.fresh = false;
     track.inlier = false;
     track.found = false;
     if (!track.alive) continue;
-    if (moved_as_predicted &&
-        trackOne(images, i, predictedPixel(i, predicted), std::min(2, coarsest), patchStep(i, predicted), 0))
+    if (moved_as_predicted && trackOne(images, i, predictedInImage(i, predicted), std::min(2, coarsest),
+                                       patchStep(i, predicted), 0))
       continue;
     trackOne(images, i, track.last_px, coarsest, Eigen::Matrix2f::Identity(), 0);
   }
@@ -86,7 +91,7 @@ void StereoOdometry::trackBlurred(const Images& images, const StereoView& predic
                                   bool moved_as_predicted) {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!tracks_[i].alive || tracks_[i].found) continue;
-    trackOne(images, i, moved_as_predicted ? predictedPixel(i, predicted) : tracks_[i].last_px,
+    trackOne(images, i, moved_as_predicted ? predictedInImage(i, predicted) : tracks_[i].last_px,
              params_.pyramid_levels - 1, patchStep(i, predicted), 1);
   }
 }
@@ -95,7 +100,7 @@ std::size_t StereoOdometry::recover(const Images& images, const StereoView& view
   std::size_t recovered = 0;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!tracks_[i].alive || tracks_[i].inlier) continue;
-    if (!trackOne(images, i, predictedPixel(i, view), 1, patchStep(i, view), 0)) continue;
+    if (!trackOne(images, i, predictedInImage(i, view), 1, patchStep(i, view), 0)) continue;
     matchStereoOne(images, i, view, 0.0);
     ++recovered;
   }
@@ -112,17 +117,17 @@ void StereoOdometry::matchStereo(const Images& images, const StereoView& view, d
 void StereoOdometry::matchStereoOne(const Images& images, std::size_t i, const StereoView& view,
                                     double slack_px) {
   Track& track = tracks_[i];
-  track.seen.has_right = false;
+  track.in_image.has_right = false;
   // Seen from where the feature is, not from where the map expects it.
   const double depth_m = (view.T_camera_world * landmarks_[i].p_world()).z();
   if (depth_m < kNearestDepth_m) return;
   const Eigen::Vector2d guess =
-      transferToRight(calibration_, view.T_late_camera, track.seen.left_px, 1.0 / depth_m);
+      transferToRight(calibration_, view.T_late_camera, track.in_image.left_px, 1.0 / depth_m);
   const auto match =
-      stereo_.refine(images.left, images.right, view.T_late_camera, track.seen.left_px, guess, slack_px);
+      stereo_.refine(images.left, images.right, view.T_late_camera, track.in_image.left_px, guess, slack_px);
   if (!match) return;
-  track.seen.right_px = match->right_px;
-  track.seen.has_right = true;
+  track.in_image.right_px = match->right_px;
+  track.in_image.has_right = true;
 }
 
 std::vector<std::size_t> StereoOdometry::foundTracks() const {

@@ -52,7 +52,8 @@ TEST(WholeChain, OdometryFromTheCamerasFollowsTheDrive) {
   const ros_io::Recording recording(SIMULATED_DRIVE, {});
   std::vector<ros_io::RawPair> pairs;
   recording.forEachPair([&pairs](const ros_io::RawPair& pair) {
-    pairs.push_back({pair.left_time_s, pair.right_time_s, pair.left.clone(), pair.right.clone()});
+    pairs.push_back(
+        {pair.left_time_s, pair.right_time_s, pair.rolling_shutter_s, pair.left.clone(), pair.right.clone()});
   });
   constexpr std::size_t kFirst = 9;  // the robot stands for two seconds
   ASSERT_GT(pairs.size(), kFirst + 10);

@@ -33,7 +33,8 @@ struct CameraConfig {
   Encoding encoding = Encoding::Bgr8;
   std::vector<ControlSetting> controls;
   int buffers = 4;
-  double stall_timeout_s = 1.0;  ///< without a frame for so long, the camera is opened anew
+  double stall_timeout_s = 1.0;    ///< without a frame for so long, the camera is opened anew
+  double rolling_shutter_s = 0.0;  ///< from the first row to the last
 };
 
 enum class CameraState { Closed, Retrying, Streaming };

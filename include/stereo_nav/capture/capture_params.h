@@ -21,6 +21,7 @@ struct CaptureParams {
   double exposure_ms = -1.0;  ///< negative: as it is; 0: automatic
   int gain = -1;              ///< negative: as it is
   bool match_exposure = false;
+  double rolling_shutter_ms = 0.0;
 
   void describe(ParameterVisitor& visitor);
 

@@ -36,9 +36,9 @@ class DriverClock {
   std::string warning_;
 };
 
-/// The middle of the exposure: stamps are taken at its start or at the end of the frame (V4L2's flags say
-/// which). Without a known exposure the stamp itself.
+/// The middle of the exposure of the middle row: stamps are taken when the first row's begins or when the
+/// frame ends (V4L2's flags say which). What is not known, exposure or rolling shutter, is left out.
 std::int64_t middleOfExposure(std::int64_t stamp_ns, std::uint32_t buffer_flags,
-                              std::optional<double> exposure_s);
+                              std::optional<double> exposure_s, double rolling_shutter_s);
 
 }  // namespace stereo_nav::capture

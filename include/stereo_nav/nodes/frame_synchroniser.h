@@ -22,6 +22,7 @@ struct FrameMessages {
   stereo_msgs::DisparityImageConstPtr disparity;  ///< null where the odometry uses none, or none has come yet
   ros::Time left_stamp;                           ///< the left image's
   ros::Time right_stamp;                          ///< true exposure time: from camera/sync where there is one
+  double rolling_shutter_s = 0.0;                 ///< from camera/sync
   SteadyTime arrival;                             ///< when the left image reached the node
   bool after_jump = false;                        ///< first frame after the stamps jumped back
 };

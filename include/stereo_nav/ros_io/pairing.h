@@ -9,12 +9,13 @@
 
 namespace stereo_nav::ros_io {
 
-/// Indices into the lists of left and right image stamps, and the true exposure times.
+/// Indices into the lists of left and right image stamps, and when the images were taken.
 struct StampPair {
   std::size_t left;
   std::size_t right;
   double left_time_s;
   double right_time_s;
+  double rolling_shutter_s = 0.0;
 };
 
 /// Which images of a recording belong together, in order of the left stamps; each image at most once.

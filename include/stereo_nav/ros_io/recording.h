@@ -23,12 +23,14 @@ namespace stereo_nav::ros_io {
 struct RecordingOptions {
   double start_s = 0.0;  ///< after the first left image
   double duration_s = std::numeric_limits<double>::infinity();
+  std::optional<double> rolling_shutter_s;  ///< in place of what camera/sync says; 0: global shutter
 };
 
 /// One pair of raw images as recorded, grey, with the true exposure times.
 struct RawPair {
   double left_time_s;
   double right_time_s;
+  double rolling_shutter_s;
   cv::Mat left;   ///< CV_8UC1
   cv::Mat right;  ///< CV_8UC1
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <opencv2/core.hpp>
 
 namespace stereo_nav::vo {
 
@@ -18,6 +19,10 @@ struct StereoCalibration {
   double baseline_m = 0.0;  ///< > 0
   int width = 0;            ///< px
   int height = 0;           ///< px
+  /// Row of the raw image that each pixel comes from, CV_32FC1; empty: its own row. Rolling shutters count
+  /// there.
+  cv::Mat left_raw_rows;
+  cv::Mat right_raw_rows;
 
   /// Throws std::invalid_argument that says which value is impossible (NaN, no baseline, no size).
   void validate() const;

@@ -10,6 +10,7 @@
 #include "stereo_nav/vo/odometry.h"
 #include "stereo_nav/vo/patch_tracker.h"
 #include "stereo_nav/vo/pose_estimator.h"
+#include "stereo_nav/vo/rolling_shutter.h"
 #include "stereo_nav/vo/sparse_stereo.h"
 #include "stereo_nav/vo/window_optimizer.h"
 
@@ -62,9 +63,10 @@ class StereoOdometry : public Odometry {
   struct Track {
     Eigen::Vector2d keyframe_px;
     Eigen::Vector2d last_px;
-    StereoObservation seen;  ///< in the current frame
-    bool alive = true;       ///< may still be found in the next frame
-    bool found = false;      ///< in the current frame
+    StereoObservation in_image;  ///< in the current frame, pixels of the images
+    StereoObservation seen;      ///< the same, freed from the rolling shutter
+    bool alive = true;           ///< may still be found in the next frame
+    bool found = false;          ///< in the current frame
     bool inlier = false;
     bool fresh = true;      ///< detected in the current frame
     bool votes = true;      ///< its observation moves the pose
@@ -106,6 +108,12 @@ class StereoOdometry : public Odometry {
   bool trackOne(const Images& images, std::size_t i, const Eigen::Vector2d& guess_px, int top_level,
                 const Eigen::Matrix2f& step, int finest_level);
   Eigen::Matrix2f patchStep(std::size_t i, const StereoView& view) const;
+  /// Twist in the current frame, should `view` be its pose.
+  Vector6d twistAt(const StereoView& view, const MotionPrior& prior) const;
+  /// What is seen in the current frame, freed from the rolling shutter as far as `view` tells the motion.
+  void straighten(const StereoView& view, const MotionPrior& prior);
+  /// The same for the first frame, once the second one has told how fast it moved.
+  void straightenStart(const Vector6d& twist);
   void matchStereo(const Images& images, const StereoView& view, double slack_px);
   void matchStereoOne(const Images& images, std::size_t i, const StereoView& view, double slack_px);
   /// So few of the tracks agree that the prediction was probably poor.
@@ -142,7 +150,9 @@ class StereoOdometry : public Odometry {
   void dropOldFrames();
   void compact();
   void report(FrameResult& result) const;
+  /// Of a landmark at the stamp, and in the image, whose rows have times of their own.
   Eigen::Vector2d predictedPixel(std::size_t i, const StereoView& view) const;
+  Eigen::Vector2d predictedInImage(std::size_t i, const StereoView& view) const;
 
   StereoParams params_;
   StereoCalibration calibration_;
@@ -152,6 +162,10 @@ class StereoOdometry : public Odometry {
   PoseEstimator estimator_;
   WindowOptimizer optimizer_;
   ImuRotation imu_;
+
+  // Of the current frame.
+  RollingShutter shutter_;
+  Vector6d row_twist_ = Vector6d::Zero();  ///< along which its rows are brought to one time
 
   // The map. The world is the left camera of the first frame.
   std::vector<WindowFrame> window_;  ///< keyframes, oldest first, and the current frame at the end
@@ -164,6 +178,7 @@ class StereoOdometry : public Odometry {
 
   // The previous frame that had a pose.
   bool last_is_keyframe_ = false;
+  bool start_is_bent_ = false;  ///< the first frame is not freed from the rolling shutter yet
   double last_left_time_s_ = 0.0;
   double last_skew_s_ = 0.0;
   double last_interval_s_ = 0.0;

@@ -53,6 +53,17 @@ TEST_F(StereoCameraTest, StampsMoveToTheMiddleOfAManualExposure) {
   EXPECT_DOUBLE_EQ(pairs.back().pair.left.exposure_s, 0.002);
 }
 
+TEST_F(StereoCameraTest, StampsMoveToTheMiddleRowOfARollingShutter) {
+  StereoConfig rolling = config();
+  rolling.left.rolling_shutter_s = rolling.right.rolling_shutter_s = 0.003;
+  start(rolling);
+  ASSERT_TRUE(morePairsCome());
+  const auto pairs = rig_->stop();
+  for (const Frame* frame : {&pairs.back().pair.left, &pairs.back().pair.right}) {
+    EXPECT_EQ(frame->time_ns - frame->stamp_ns, 1'500'000);
+  }
+}
+
 TEST_F(StereoCameraTest, StampsAtTheEndMoveBackToTheMiddleOfTheExposure) {
   kernel_.change(0, [](FakeCamera& camera) {
     camera.stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_EOF;

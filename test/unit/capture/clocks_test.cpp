@@ -110,9 +110,11 @@ TEST(DriverClock, UnknownClocksAreRecognisedWithAWarning) {
 
 TEST(MiddleOfExposure, IsAfterAStartStampAndBeforeAnEndStamp) {
   const std::int64_t stamp = 10 * kSecond_ns;
-  EXPECT_EQ(middleOfExposure(stamp, V4L2_BUF_FLAG_TSTAMP_SRC_SOE, 0.02), stamp + 10'000'000);
-  EXPECT_EQ(middleOfExposure(stamp, V4L2_BUF_FLAG_TSTAMP_SRC_EOF, 0.02), stamp - 10'000'000);
-  EXPECT_EQ(middleOfExposure(stamp, V4L2_BUF_FLAG_TSTAMP_SRC_SOE, std::nullopt), stamp);
+  EXPECT_EQ(middleOfExposure(stamp, V4L2_BUF_FLAG_TSTAMP_SRC_SOE, 0.02, 0.0), stamp + 10'000'000);
+  EXPECT_EQ(middleOfExposure(stamp, V4L2_BUF_FLAG_TSTAMP_SRC_EOF, 0.02, 0.0), stamp - 10'000'000);
+  EXPECT_EQ(middleOfExposure(stamp, V4L2_BUF_FLAG_TSTAMP_SRC_SOE, std::nullopt, 0.0), stamp);
+  EXPECT_EQ(middleOfExposure(stamp, V4L2_BUF_FLAG_TSTAMP_SRC_SOE, 0.02, 0.03), stamp + 25'000'000);
+  EXPECT_EQ(middleOfExposure(stamp, V4L2_BUF_FLAG_TSTAMP_SRC_EOF, std::nullopt, 0.03), stamp - 15'000'000);
 }
 
 TEST(SequenceCounter, CountsGapsAndNothingElse) {

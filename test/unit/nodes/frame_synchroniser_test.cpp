@@ -28,6 +28,7 @@ class Feed {
     auto message = boost::make_shared<StereoSync>();
     message->header.stamp = message->left_stamp = at(time_s);
     message->right_stamp = at(time_s + skew_s);
+    message->rolling_shutter_s = 0.03;
     synchroniser.addSync(message);
   }
 
@@ -58,6 +59,7 @@ TEST(FrameSynchroniser, EqualStampsCompleteAtOnceInAnyOrder) {
   EXPECT_EQ(frame->left_stamp, at(0.0));
   EXPECT_EQ(frame->right_stamp, at(0.0));
   EXPECT_EQ(frame->disparity->header.stamp, at(0.0));
+  EXPECT_EQ(frame->rolling_shutter_s, 0.0) << "nobody says that there is one";
   EXPECT_FALSE(frame->after_jump);
   EXPECT_FALSE(feed.synchroniser.take());
   EXPECT_EQ(feed.synchroniser.dropped(), 0u);
@@ -127,6 +129,7 @@ TEST(FrameSynchroniser, SyncNamesTheRightImage) {
   auto frame = common.synchroniser.take();
   ASSERT_TRUE(frame);
   EXPECT_NEAR((frame->right_stamp - frame->left_stamp).toSec(), 0.012, 1e-6);
+  EXPECT_EQ(frame->rolling_shutter_s, 0.03);
 
   Feed own(Disparity::kNone);  // each image carries its own; a nearer one is not what was paired
   own.sync(0.0, 0.05);

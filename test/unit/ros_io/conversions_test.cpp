@@ -1,8 +1,10 @@
 #include "stereo_nav/ros_io/conversions.h"
 
 #include <gtest/gtest.h>
+#include <image_geometry/pinhole_camera_model.h>
 
 #include <boost/make_shared.hpp>
+#include <cmath>
 #include <limits>
 
 namespace stereo_nav::ros_io {
@@ -59,6 +61,24 @@ TEST(ToCalibration, RefusesWhatImageGeometryWouldAbortOnOrMisread) {
   right.K[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(contains(refusal(info(false), right), "NaN"));
   EXPECT_TRUE(contains(refusal(sensor_msgs::CameraInfo(), sensor_msgs::CameraInfo()), "not calibrated"));
+}
+
+/// As image_geometry tells it, which image_proc rectifies with.
+TEST(RawRows, AreThoseOfTheUnrectifiedPixels) {
+  sensor_msgs::CameraInfo camera = info(false);
+  camera.distortion_model = "plumb_bob";
+  camera.D = {-0.3, 0.1, 0.001, -0.002, 0.0};
+  const double tilt = 0.03;
+  camera.R = {1, 0, 0, 0, std::cos(tilt), -std::sin(tilt), 0, std::sin(tilt), std::cos(tilt)};
+  const cv::Mat rows = rawRows(camera);
+  ASSERT_EQ(rows.size(), cv::Size(320, 240));
+  image_geometry::PinholeCameraModel model;
+  model.fromCameraInfo(camera);
+  for (const cv::Point px : {cv::Point(10, 10), cv::Point(160, 120), cv::Point(310, 200)}) {
+    const double row = model.unrectifyPoint(cv::Point2d(px)).y;
+    EXPECT_NEAR(rows.at<float>(px), row, 0.01);
+    EXPECT_GT(std::abs(row - px.y), 1.0) << "a rectification that does something";
+  }
 }
 
 sensor_msgs::ImagePtr image(const std::string& encoding, unsigned bytes_per_pixel, unsigned char value) {

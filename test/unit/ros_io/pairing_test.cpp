@@ -20,6 +20,7 @@ TEST(PairStamps, NearestWithinHalfAPeriodEachOnce) {
   EXPECT_EQ(pairs[2].left, 3u);
   EXPECT_EQ(pairs[2].right, 3u);
   EXPECT_NEAR(pairs[0].right_time_s - pairs[0].left_time_s, 0.02, 1e-6);
+  EXPECT_EQ(pairs[0].rolling_shutter_s, 0.0);
 }
 
 TEST(PairStamps, ALostImageDoesNotShiftThePairsBehindIt) {
@@ -33,6 +34,7 @@ StereoSync syncOf(double left_s, double right_s) {
   StereoSync sync;
   sync.header.stamp = sync.left_stamp = ros::Time(100.0 + left_s);
   sync.right_stamp = ros::Time(100.0 + right_s);
+  sync.rolling_shutter_s = 0.03;
   return sync;
 }
 
@@ -44,6 +46,7 @@ TEST(PairStamps, SyncMessagesDecideAndGiveTheTrueTimes) {
     ASSERT_EQ(pairs.size(), 2u);
     EXPECT_NEAR(pairs[1].left_time_s, 100.1, 1e-6);
     EXPECT_NEAR(pairs[1].right_time_s, 100.15, 1e-6);
+    EXPECT_EQ(pairs[1].rolling_shutter_s, 0.03);
   }
 }
 

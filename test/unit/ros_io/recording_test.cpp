@@ -60,6 +60,32 @@ TEST_F(RecordingTest, DeliversEveryPairInOrderWithItsTrueTimes) {
   EXPECT_TRUE(std::is_sorted(left_times_s.begin(), left_times_s.end()));
 }
 
+TEST_F(RecordingTest, TheRollingShutterMayBeToldByTheUser) {
+  test::FixtureBag fixture;
+  fixture.frames = 2;
+  test::writeFixtureBag(path("rolling.bag"), fixture);
+  RecordingOptions options;
+  options.rolling_shutter_s = 0.025;
+  Recording(path("rolling.bag"), options).forEachPair([](const RawPair& pair) {
+    EXPECT_EQ(pair.rolling_shutter_s, 0.025);
+  });
+  Recording(path("rolling.bag"), {}).forEachPair([](const RawPair& pair) {
+    EXPECT_EQ(pair.rolling_shutter_s, 0.0) << "what camera/sync says";
+  });
+}
+
+TEST_F(RecordingTest, SyncMessagesThatItCannotReadAreNotPassedOver) {
+  test::FixtureBag fixture;
+  fixture.frames = 2;
+  test::writeFixtureBag(path("old.bag"), fixture);
+  {
+    rosbag::Bag bag(path("old.bag"), rosbag::bagmode::Append);
+    bag.write(topics::kSync, ros::Time(1.0), std_msgs::String());
+  }
+  const std::string message = refusal(path("old.bag"));
+  EXPECT_TRUE(contains(message, "of another version of stereo_nav")) << message;
+}
+
 TEST_F(RecordingTest, StartAndDurationCutAPiece) {
   test::FixtureBag fixture;
   fixture.frames = 6;

@@ -13,8 +13,9 @@ namespace stereo_nav::tools {
 namespace {
 
 sim::Scenario shortScenario() {
-  sim::Scenario scenario = sim::loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/arena.yaml",
-                                             {"timing.skew_ms=4", "timing.jitter_ms=1"});
+  sim::Scenario scenario =
+      sim::loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/arena.yaml",
+                        {"timing.skew_ms=4", "timing.jitter_ms=1", "sensor.rolling_shutter_ms=20"});
   return scenario;
 }
 
@@ -59,6 +60,7 @@ TEST(SimulatedBag, IsARecordingWithTruePairsImuTransformsAndTruth) {
   recording.forEachPair([](const ros_io::RawPair& pair) {
     EXPECT_NEAR(pair.right_time_s - pair.left_time_s, 0.004, 0.006);
     EXPECT_NE(pair.right_time_s, pair.left_time_s);
+    EXPECT_DOUBLE_EQ(pair.rolling_shutter_s, 0.02);
   });
 }
 

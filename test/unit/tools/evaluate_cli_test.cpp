@@ -119,6 +119,7 @@ TEST_F(EvaluateTest, RefusesBadArguments) {
   expectRefusal("", "no BAG given");
   expectRefusal(file("room.bag") + " --start -1", "--start");
   expectRefusal(file("room.bag") + " --repeat 0", "--repeat");
+  expectRefusal(file("room.bag") + " --rolling-shutter-ms 500", "--rolling-shutter-ms");
   expectRefusal(file("room.bag") + " --frobnicate", "frobnicate");
 }
 

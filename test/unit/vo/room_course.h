@@ -31,16 +31,31 @@ class StereoOdometryTest : public ::testing::Test {
     return frames;
   }
 
+  /// As rolling shutters take it, in bands of rows; what moves on by `seconds(time)` of roomDrive().
+  template <typename Seconds>
+  StereoFrame rollingFrameAt(double time_s, double readout_s, const Seconds& seconds) const {
+    constexpr int kBands = 8;
+    StereoFrame frame = frameAt(seconds(time_s));
+    for (int band = 0; band < kBands; ++band) {
+      const cv::Range rows(band * calibration.height / kBands, (band + 1) * calibration.height / kBands);
+      const StereoFrame taken = frameAt(seconds(time_s + readout_s * ((band + 0.5) / kBands - 0.5)));
+      taken.left.rowRange(rows).copyTo(frame.left.rowRange(rows));
+      taken.right.rowRange(rows).copyTo(frame.right.rowRange(rows));
+    }
+    frame.left_time_s = frame.right_time_s = time_s;
+    frame.readout_s = readout_s;
+    return frame;
+  }
+
   static FrameResult drive(Odometry& odometry, const std::vector<StereoFrame>& frames) {
     FrameResult result;
     for (const StereoFrame& frame : frames) result = odometry.process(frame);
     return result;
   }
 
-  /// Distance from the truth at the end of the course, m.
-  static double endError(const FrameResult& result) {
-    const Eigen::Isometry3d truth =
-        test::roomDrive(0.0).inverse() * test::roomDrive(kPeriod_s * (kFrames - 1));
+  /// Distance from the truth at the end of the course, or of one of another length, m.
+  static double endError(const FrameResult& result, double end_s = kPeriod_s * (kFrames - 1)) {
+    const Eigen::Isometry3d truth = test::roomDrive(0.0).inverse() * test::roomDrive(end_s);
     return (result.T_start_camera.translation() - truth.translation()).norm();
   }
 

@@ -40,6 +40,41 @@ TEST_F(StereoOdometryTest, FollowsADriveWithARightCameraThatIsEarly) {
   EXPECT_LT(endError(result), 0.015);
 }
 
+/// Errors at the end of a drive with a rolling shutter of which the odometry knows, and does not, m.
+struct RollingErrors {
+  double aware_m;
+  double unaware_m;
+};
+
+class RollingOdometryTest : public StereoOdometryTest {
+ protected:
+  template <typename Seconds>
+  RollingErrors errors(const Seconds& seconds) const {
+    constexpr int kRollingFrames = 7;
+    std::vector<StereoFrame> frames;
+    for (int i = 0; i < kRollingFrames; ++i) frames.push_back(rollingFrameAt(kPeriod_s * i, 0.06, seconds));
+    const double end_s = seconds(frames.back().left_time_s) - seconds(0.0);
+    StereoOdometry aware = odometry();
+    const FrameResult known = drive(aware, frames);
+    for (StereoFrame& frame : frames) frame.readout_s = 0.0;
+    StereoOdometry unaware = odometry();
+    return {endError(known, end_s), endError(drive(unaware, frames), end_s)};
+  }
+};
+
+TEST_F(RollingOdometryTest, KnowsWhenTheRowsOfAnAcceleratingDriveWereTaken) {
+  // From rest to twice the speed of roomDrive().
+  const RollingErrors errors =
+      this->errors([](double time_s) { return time_s < 0.0 ? 0.0 : time_s * time_s / 0.6; });
+  EXPECT_LT(errors.aware_m, 0.005);  // of 0.24 m
+  EXPECT_GT(errors.unaware_m, 3.0 * errors.aware_m);
+}
+
+TEST_F(RollingOdometryTest, StartsInTheMidstOfADrive) {
+  const RollingErrors errors = this->errors([](double time_s) { return time_s + 1.0; });
+  EXPECT_LT(errors.aware_m, 0.005);
+}
+
 TEST_F(StereoOdometryTest, StandsStillWithoutDrift) {
   StereoOdometry vo = odometry();
   drive(vo, course());
