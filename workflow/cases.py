@@ -7,10 +7,10 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "scripts", "lib"))
 
-Config = collections.namedtuple("Config", "file odometry disparity true_step_px", defaults=({}, {}, None))
+Config = collections.namedtuple("Config", "file odometry disparity true_step_px options", defaults=({}, {}, None, ""))
 
 # Configurations: a file of config/, what is changed in it and in config/disparity.yaml; with `true_step_px` the disparity
-# map is the true one, rounded to that step (0: not at all).
+# map is the true one, rounded to that step (0: not at all); `options` are more of evaluate's.
 CONFIGS = {
     "thesis": Config("vo_thesis.yaml"),
     "thesis_latest": Config("vo_thesis.yaml", {"thesis.disparity": "latest"}),
@@ -24,6 +24,7 @@ CONFIGS = {
     "thesis_range128": Config("vo_thesis.yaml", {}, {"disparity_range": 128}),
     "thesis_range256": Config("vo_thesis.yaml", {}, {"disparity_range": 256}),
     "stereo": Config("vo.yaml"),
+    "stereo_unaware": Config("vo.yaml", options="--rolling-shutter-ms 0"),
 }
 
 BOTH = ["thesis", "stereo"]
@@ -62,6 +63,13 @@ GROUPS = {
     "skew": {str(skew): ("arena", PERFECT + (["timing.skew_ms=%d" % skew] if skew else []), CHOICES)
              for skew in (0, 4, 8, 12, 16)},
     "free": {"free": ("arena", PERFECT + ["timing.free_running=true", "timing.jitter_ms=1"], CHOICES)},
+    "rolling": {
+        "0 ms": ("arena", PERFECT, BOTH),
+        **{"%d ms" % readout: ("arena", PERFECT + ["sensor.rolling_shutter_ms=%d" % readout],
+                               ["thesis", "stereo_unaware", "stereo"]) for readout in (10, 20, 30)},
+        "30 ms, two clocks": ("arena", PERFECT + TWO_CLOCKS + ["sensor.rolling_shutter_ms=30"],
+                              ["thesis", "stereo_unaware", "stereo"]),
+    },
     "resolution": {
         "320x240": ("arena", TEN_HZ, BOTH),
         "640x480": ("arena", TEN_HZ + ["rig.image_scale=2"], ["thesis_range128", "stereo"]),

@@ -25,6 +25,7 @@ SECTIONS = [
     (curves.skew, ["skew", "free"]),
     (curves.disparity_choice, ["skew", "free"]),
     (curves.rotation, ["skew", "free", "drift"]),
+    (curves.rolling_shutter, ["rolling"]),
     (curves.resolution, ["resolution"]),
 ]
 

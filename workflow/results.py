@@ -19,6 +19,7 @@ NAMES = {
     "thesis_range128": "as published (matched disparity)",
     "thesis_range256": "as published (matched disparity)",
     "stereo": "default (vo.yaml)",
+    "stereo_unaware": "default, not told of the rolling shutter",
 }
 
 
