@@ -1,5 +1,7 @@
 #include "stereo_nav/nodes/capture_setup.h"
 
+#include <sstream>
+
 namespace stereo_nav::nodes {
 namespace {
 
@@ -38,6 +40,16 @@ void checkDevice(const std::string& side, const std::string& device) {
   throw ParameterError(
       side + ".device is not set: which is the " + side +
       " camera? `rosrun stereo_nav list_cameras` shows the cameras and what to write into the rig file");
+}
+
+void checkRollingShutter(const capture::CaptureParams& params) {
+  const double period_ms = 1e3 / params.rate_hz;
+  if (params.rolling_shutter_ms <= period_ms) return;
+  std::ostringstream message;
+  message << "rolling_shutter_ms is " << params.rolling_shutter_ms << ", more than the " << period_ms
+          << " ms between two images at rate_hz: " << params.rate_hz
+          << "; no camera reads one image while it takes the next. docs/capture.md tells how to measure it";
+  throw ParameterError(message.str());
 }
 
 }  // namespace
@@ -85,6 +97,7 @@ capture::StereoConfig CaptureSetup::toConfig() const {
     throw ParameterError("left.device and right.device are both " + params.left.device +
                          ": a stereo camera needs two");
   }
+  checkRollingShutter(params.capture);
   capture::StereoConfig config = params.capture.toConfig();
   config.left.device = params.left.device;
   config.left.controls = left_controls;

@@ -11,6 +11,10 @@ void FrameSynchroniserParams::describe(ParameterVisitor& visitor) {
                   "left images that wait for the rest of their frame; the oldest gives way");
   visitor.real("max_skew_s", max_skew_s, {0.0, 0.45}, "s",
                "without camera/sync: a right image further from the left stamp is no partner");
+  visitor.real(
+      "rolling_shutter_ms", rolling_shutter_ms, {0.0, 200.0}, "ms",
+      "without camera/sync: time from the first row of an image to its last, with stamps of the middle "
+      "row; 0: global shutter");
 }
 
 FrameSynchroniser::FrameSynchroniser(const FrameSynchroniserParams& params)
@@ -18,7 +22,8 @@ FrameSynchroniser::FrameSynchroniser(const FrameSynchroniserParams& params)
       lefts_(static_cast<std::size_t>(params.queue_size)),
       rights_(static_cast<std::size_t>(params.queue_size)),
       disparities_(static_cast<std::size_t>(params.queue_size)),
-      syncs_(static_cast<std::size_t>(params.queue_size)) {}
+      syncs_(static_cast<std::size_t>(params.queue_size)),
+      rolling_shutter_s_(1e-3 * params.rolling_shutter_ms) {}
 
 void FrameSynchroniser::addLeft(const sensor_msgs::ImageConstPtr& image, SteadyTime arrival) {
   const auto added = lefts_.add(image->header.stamp, {image, arrival});
@@ -42,6 +47,7 @@ void FrameSynchroniser::addDisparity(const stereo_msgs::DisparityImageConstPtr& 
 
 void FrameSynchroniser::addSync(const StereoSyncConstPtr& sync) {
   syncs_.add(sync->header.stamp, sync);
+  rolling_shutter_s_ = sync->rolling_shutter_s;  // stays when camera/sync goes quiet
 }
 
 std::optional<FrameMessages> FrameSynchroniser::take() {
@@ -51,6 +57,7 @@ std::optional<FrameMessages> FrameSynchroniser::take() {
     frame.left_stamp = left->stamp;
     frame.left = left->message.image;
     frame.arrival = left->message.arrival;
+    frame.rolling_shutter_s = rolling_shutter_s_;
     const Match right = matchRight(frame.left_stamp, frame);
     if (right == Match::kHopeless) {
       left = waiting.erase(left);
@@ -77,7 +84,6 @@ FrameSynchroniser::Match FrameSynchroniser::matchRight(const ros::Time& left_sta
   const StereoSyncConstPtr sync = syncs_.find(left_stamp);
   if (!sync) return Match::kWaiting;
   frame.right_stamp = sync->right_stamp;
-  frame.rolling_shutter_s = sync->rolling_shutter_s;
   frame.right = rights_.find(left_stamp);  // one common stamp for the pair
   if (!frame.right) frame.right = rights_.find(sync->right_stamp);
   return frame.right ? Match::kFound : Match::kWaiting;

@@ -178,7 +178,12 @@ bool OdometrySession::readImages(const FrameMessages& frame, SessionOutput& outp
     output.images.left = ros_io::toMono8(frame.left);
     output.images.right = ros_io::toMono8(frame.right);
     if (frame.disparity) output.images.disparity = ros_io::toDisparityMap(*frame.disparity, calibration_);
-    return true;
+    if (frame.rolling_shutter_s >= 0.0 && frame.rolling_shutter_s <= vo::kLongestReadout_s) return true;
+    output.errors["rolling_shutter"] =
+        "rolling_shutter_s of camera/sync is " + std::to_string(frame.rolling_shutter_s) +
+        ": it must be from 0 (global shutter) to " + std::to_string(vo::kLongestReadout_s) +
+        "; correct it where the cameras are captured";
+    return false;
   } catch (const ros_io::InputError& error) {
     output.errors["image"] = error.what();
     return false;

@@ -121,6 +121,10 @@ cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image) {
 }
 
 cv::Mat rawRows(const sensor_msgs::CameraInfo& info) {
+  const bool known = info.distortion_model.empty() || info.distortion_model == "plumb_bob" ||
+                     info.distortion_model == "rational_polynomial";
+  const bool complete = info.D.empty() || info.D.size() == 4 || info.D.size() == 5 || info.D.size() == 8;
+  if (!known || !complete) return {};
   image_geometry::PinholeCameraModel camera;
   camera.fromCameraInfo(info);
   cv::Mat columns, rows;

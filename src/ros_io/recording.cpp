@@ -170,10 +170,12 @@ void Recording::pairImages(const RecordingOptions& options) {
     for (const rosbag::MessageInstance& message : view) {
       const auto pair = message.instantiate<StereoSync>();
       if (!pair) {
-        throw InputError(path_ + ": " + *topics_.sync + " is " + message.getDataType() +
-                         " of another version of stereo_nav; leave the topic out (rosbag filter IN.bag "
-                         "OUT.bag \"topic != '" +
-                         *topics_.sync + "'\"): the images' own stamps pair them then");
+        throw InputError(
+            path_ + ": " + *topics_.sync + " is " + message.getDataType() +
+            " of another version of stereo_nav; leave the topic out (rosbag filter IN.bag "
+            "OUT.bag \"topic != '" +
+            *topics_.sync +
+            "'\"): the images' own stamps pair them then, right for cameras that were synchronised");
       }
       sync.push_back(*pair);
     }

@@ -5,11 +5,10 @@
 
 #include "command_line.h"
 #include "package_files.h"
+#include "stereo_nav/vo/odometry.h"
 
 namespace stereo_nav::tools {
 namespace {
-
-constexpr double kMaxRollingShutter_s = 0.2;
 
 namespace po = boost::program_options;
 
@@ -20,7 +19,7 @@ void checkValues(const EvaluateOptions& options) {
   if (!(options.part.duration_s > 0.0))
     throw ros_io::InputError("--duration must be a number of seconds above 0");
   const double rolling_shutter_s = options.part.rolling_shutter_s.value_or(0.0);
-  if (!(rolling_shutter_s >= 0.0 && rolling_shutter_s <= kMaxRollingShutter_s))
+  if (!(rolling_shutter_s >= 0.0 && rolling_shutter_s <= vo::kLongestReadout_s))
     throw ros_io::InputError("--rolling-shutter-ms must be a number of milliseconds from 0 to 200");
   if (options.repeat < 1) throw ros_io::InputError("--repeat must be 1 or more");
 }
@@ -48,7 +47,9 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("start", po::value<double>(&options.part.start_s), "seconds of the recording to skip")           //
       ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")      //
       ("rolling-shutter-ms", po::value<double>(),
-       "time from an image's first row to its last, instead of what the recording says; 0: global shutter")  //
+       "time from an image's first row to its last, instead of what the recording says; 0: global shutter. "
+       "The "
+       "stamps are taken as those of the middle row")  //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;

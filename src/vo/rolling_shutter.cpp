@@ -18,7 +18,7 @@ Eigen::Vector3d displacement(const Vector6d& twist, double time_s, const Eigen::
 
 double RollingShutter::time_s(const cv::Mat& raw_rows, const Eigen::Vector2d& px) const {
   if (isGlobal()) return 0.0;
-  double row = px.y();
+  double row = std::clamp(px.y(), 0.0, calibration_.height - 1.0);
   if (!raw_rows.empty()) {
     const int u = std::clamp(static_cast<int>(std::lround(px.x())), 0, raw_rows.cols - 1);
     const int v = std::clamp(static_cast<int>(std::lround(px.y())), 0, raw_rows.rows - 1);
@@ -55,6 +55,7 @@ Eigen::Vector3d RollingShutter::rayDepthAtStamp(const Eigen::Vector2d& left_px, 
   const Eigen::Vector3d ray = leftRay(calibration_, left_px);
   if (isGlobal()) return {ray.x(), ray.y(), inverse_depth};
   const Eigen::Vector3d at_stamp = ray + displacement(twist, -leftTime_s(left_px), ray, inverse_depth);
+  if (at_stamp.z() < kNearestDepth_m) return {ray.x(), ray.y(), inverse_depth};
   return {at_stamp.x() / at_stamp.z(), at_stamp.y() / at_stamp.z(), inverse_depth / at_stamp.z()};
 }
 

@@ -167,9 +167,10 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
   }
   if (isCarriedAway(estimate, prior)) {
     movers_fill_view_ = true;
+    straighten(predicted, prior);  // not along the motion of what carried it away
     estimate = estimatePose(tracksNear(predicted), prior, predicted);
   }
-  if (start_is_bent_ && estimate.converged) {
+  if (start_is_bent_ && hasEnoughInliers(estimate)) {
     straightenStart(twistAt(estimate.view, prior));
     estimate = estimatePose(foundTracks(), prior, estimate.view);
   }
@@ -217,9 +218,7 @@ bool StereoOdometry::follow(const Images& images, FrameResult& result) {
 bool StereoOdometry::isAcceptable(const PoseEstimate& estimate, const MotionPrior& prior,
                                   FrameResult& result) {
   const bool carried_away = isCarriedAway(estimate, prior);
-  if (!carried_away && estimate.converged &&
-      estimate.inliers >= static_cast<std::size_t>(params_.min_inliers))
-    return true;
+  if (!carried_away && hasEnoughInliers(estimate)) return true;
   for (Track& track : tracks_) track.inlier = false;
   if (carried_away) {
     result.reason =
@@ -233,24 +232,6 @@ bool StereoOdometry::isAcceptable(const PoseEstimate& estimate, const MotionPrio
           << " needed: dark, blocked, without texture, moved too far, or moving objects fill the view";
   result.reason = message.str();
   return false;
-}
-
-void StereoOdometry::report(FrameResult& result) const {
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const Track& track = tracks_[i];
-    if (!track.found) continue;
-    FeatureReport report;
-    report.id = landmarks_[i].id;
-    report.current_px = toCv(track.in_image.left_px);
-    report.previous_px = track.fresh ? report.current_px : toCv(track.last_px);
-    report.fate = track.fresh            ? FeatureReport::Fate::kDetected
-                  : track.inlier         ? FeatureReport::Fate::kInlier
-                  : track.seen.has_right ? FeatureReport::Fate::kRejected
-                                         : FeatureReport::Fate::kNoDepth;
-    report.p_camera = last_view_.T_camera_world * landmarks_[i].p_world();
-    if (track.inlier && !track.fresh) ++result.inliers;
-    result.features.push_back(report);
-  }
 }
 
 }  // namespace stereo_nav::vo

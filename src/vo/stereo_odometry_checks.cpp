@@ -30,11 +30,21 @@ void checkStamps(const StereoFrame& frame) {
   throw std::invalid_argument(message.str());
 }
 
+void checkReadout(const StereoFrame& frame) {
+  if (frame.readout_s >= 0.0 && frame.readout_s <= kLongestReadout_s) return;
+  std::ostringstream message;
+  message << "the rows of the images were taken within " << frame.readout_s
+          << " s, which no rolling shutter does (0 to " << kLongestReadout_s
+          << " s, 0: global shutter); look at rolling_shutter_s of camera/sync";
+  throw std::invalid_argument(message.str());
+}
+
 }  // namespace
 
 void StereoOdometry::checkFrame(const StereoFrame& frame) const {
   checkImages(frame, calibration_);
   checkStamps(frame);
+  checkReadout(frame);
   if (window_.empty() || frame.left_time_s > last_left_time_s_) return;
   std::ostringstream message;
   message << "a frame at " << std::fixed << frame.left_time_s << " s came after one at " << last_left_time_s_

@@ -95,14 +95,14 @@ void StereoOdometry::replenish(const Images& images, FrameResult& result) {
     Landmark landmark;
     landmark.id = next_id_++;
     landmark.T_world_anchor = T_world_camera;
-    landmark.ray_depth = shutter_.rayDepthAtStamp(px, match->depth.inverse_depth, row_twist_);
+    landmark.ray_depth.z() = match->depth.inverse_depth;
     Track track;
     track.keyframe_px = track.last_px = px;
     track.in_image.left_px = px;
     track.in_image.right_px = match->right_px;
     track.in_image.has_right = true;
-    track.seen = shutter_.atStamp(track.in_image, view.T_camera_world * landmark.p_world(),
-                                  view.T_late_camera, row_twist_);
+    track.seen = track.in_image;
+    placeAtStamp(landmark, track.seen, view, row_twist_);
     track.found = track.inlier = true;
     landmark.views.push_back({static_cast<int>(window_.size()) - 1, track.seen});
     landmarks_.push_back(landmark);

@@ -69,10 +69,20 @@ void StereoOdometry::straightenStart(const Vector6d& twist) {
   start_is_bent_ = false;
   const StereoView& view = window_.front().view;
   for (Landmark& landmark : landmarks_) {
-    StereoObservation& seen = landmark.views.front().seen;
-    landmark.ray_depth = shutter_.rayDepthAtStamp(seen.left_px, landmark.ray_depth.z(), twist);
-    seen = shutter_.atStamp(seen, view.T_camera_world * landmark.p_world(), view.T_late_camera, twist);
+    placeAtStamp(landmark, landmark.views.front().seen, view, twist);
   }
+}
+
+void StereoOdometry::placeAtStamp(Landmark& landmark, StereoObservation& seen, const StereoView& view,
+                                  const Vector6d& twist) const {
+  landmark.ray_depth = shutter_.rayDepthAtStamp(seen.left_px, landmark.ray_depth.z(), twist);
+  if (shutter_.isGlobal()) return;
+  // Left and right rows have times of their own, so that the depth was one of a moving point.
+  seen = shutter_.atStamp(seen, view.T_camera_world * landmark.p_world(), view.T_late_camera, twist);
+  const Triangulation still = triangulate(calibration_, view.T_late_camera, seen.left_px, seen.right_px);
+  if (still.inverse_depth <= 0.0) return;
+  landmark.ray_depth = leftRay(calibration_, seen.left_px);
+  landmark.ray_depth.z() = still.inverse_depth;
 }
 
 StereoView StereoOdometry::leftOnlyView(const MotionPrior& prior, const StereoView& predicted) {
@@ -87,6 +97,10 @@ double StereoOdometry::epipolarSlack(const Vector6d& late_sigma) const {
   return calibration_.fx * (late_sigma.tail<3>().maxCoeff() + late_sigma.head<3>().maxCoeff() / kNearDepth_m);
 }
 
+bool StereoOdometry::hasEnoughInliers(const PoseEstimate& estimate) const {
+  return estimate.converged && estimate.inliers >= static_cast<std::size_t>(params_.min_inliers);
+}
+
 bool StereoOdometry::isThin(const PoseEstimate& estimate) const {
   constexpr double kThinShare = 0.6;
   const auto alive =
@@ -96,7 +110,7 @@ bool StereoOdometry::isThin(const PoseEstimate& estimate) const {
 
 bool StereoOdometry::isCarriedAway(const PoseEstimate& estimate, const MotionPrior& prior) const {
   constexpr double kSigmas = 5.0;
-  if (!estimate.converged || estimate.inliers < static_cast<std::size_t>(params_.min_inliers)) return false;
+  if (!hasEnoughInliers(estimate)) return false;
   if (last_interval_s_ == 0.0) return false;
   const Eigen::Isometry3d T_camera_last = estimate.view.T_camera_world * prior.T_previous_world.inverse();
   const Vector6d change =

@@ -186,4 +186,22 @@ std::vector<std::size_t> StereoOdometry::selectRigid(const StereoView& view, Fra
   return rigid;
 }
 
+void StereoOdometry::report(FrameResult& result) const {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const Track& track = tracks_[i];
+    if (!track.found) continue;
+    FeatureReport report;
+    report.id = landmarks_[i].id;
+    report.current_px = toCv(track.in_image.left_px);
+    report.previous_px = track.fresh ? report.current_px : toCv(track.last_px);
+    report.fate = track.fresh            ? FeatureReport::Fate::kDetected
+                  : track.inlier         ? FeatureReport::Fate::kInlier
+                  : track.seen.has_right ? FeatureReport::Fate::kRejected
+                                         : FeatureReport::Fate::kNoDepth;
+    report.p_camera = last_view_.T_camera_world * landmarks_[i].p_world();
+    if (track.inlier && !track.fresh) ++result.inliers;
+    result.features.push_back(report);
+  }
+}
+
 }  // namespace stereo_nav::vo

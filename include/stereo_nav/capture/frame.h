@@ -20,7 +20,7 @@ inline Side otherSide(Side side) {
 /// One image with its times, all of CLOCK_MONOTONIC in nanoseconds.
 struct Frame {
   DecodedImage image;
-  std::int64_t time_ns = 0;      ///< middle of the exposure where that is known, else the driver's stamp
+  std::int64_t time_ns = 0;      ///< middle of the exposure and of the rows, as far as known
   std::int64_t stamp_ns = 0;     ///< the driver's stamp, in the monotonic clock
   std::int64_t dequeued_ns = 0;  ///< when the frame was taken from the driver
   std::int64_t decoding_ns = 0;  ///< how long decoding took

@@ -22,7 +22,7 @@ struct FrameMessages {
   stereo_msgs::DisparityImageConstPtr disparity;  ///< null where the odometry uses none, or none has come yet
   ros::Time left_stamp;                           ///< the left image's
   ros::Time right_stamp;                          ///< true exposure time: from camera/sync where there is one
-  double rolling_shutter_s = 0.0;                 ///< from camera/sync
+  double rolling_shutter_s = 0.0;                 ///< time from the first row of an image to the last
   SteadyTime arrival;                             ///< when the left image reached the node
   bool after_jump = false;                        ///< first frame after the stamps jumped back
 };
@@ -32,6 +32,7 @@ struct FrameSynchroniserParams {
 
   int queue_size = 10;
   double max_skew_s = 0.06;
+  double rolling_shutter_ms = 0.0;
   Disparity disparity = Disparity::kMatched;  ///< follows from the odometry's configuration, no parameter
 
   void describe(ParameterVisitor& visitor);
@@ -81,6 +82,7 @@ class FrameSynchroniser {
   StampBuffer<stereo_msgs::DisparityImageConstPtr> disparities_;
   StampBuffer<StereoSyncConstPtr> syncs_;
   double right_period_s_ = 0.0;  ///< shortest recent interval between right images; 0 while unknown
+  double rolling_shutter_s_;     ///< camera/sync's last, the parameter before there is one
   bool jumped_ = false;
   std::uint64_t incomplete_ = 0;
 };

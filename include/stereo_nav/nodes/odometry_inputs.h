@@ -6,6 +6,7 @@
 #include <sensor_msgs/Imu.h>
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <string>
 

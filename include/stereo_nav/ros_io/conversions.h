@@ -28,7 +28,8 @@ class InputError : public std::runtime_error {
 vo::StereoCalibration toCalibration(const sensor_msgs::CameraInfo& left,
                                     const sensor_msgs::CameraInfo& right);
 
-/// Row of the raw image that each pixel of the rectified one comes from, CV_32FC1.
+/// Row of the raw image that each pixel of the rectified one comes from, CV_32FC1; empty for distortion
+/// models that image_proc does not rectify with.
 cv::Mat rawRows(const sensor_msgs::CameraInfo& info);
 
 /// CV_8UC1 image. Takes mono8, mono16 (full range scaled to 8 bit), rgb8, bgr8, rgba8, bgra8, the 8-bit Bayer

@@ -15,6 +15,8 @@ namespace stereo_nav::vo {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+constexpr double kLongestReadout_s = 0.2;  ///< no rolling shutter takes longer
+
 /// A rectified stereo pair. Left and right carry their own times: two free-running cameras never agree.
 struct StereoFrame {
   double left_time_s = 0.0;

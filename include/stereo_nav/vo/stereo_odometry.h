@@ -114,8 +114,13 @@ class StereoOdometry : public Odometry {
   void straighten(const StereoView& view, const MotionPrior& prior);
   /// The same for the first frame, once the second one has told how fast it moved.
   void straightenStart(const Vector6d& twist);
+  /// Of a new landmark, seen in the frame with this view and twist; its depth is that of the pixels in the
+  /// images.
+  void placeAtStamp(Landmark& landmark, StereoObservation& seen, const StereoView& view,
+                    const Vector6d& twist) const;
   void matchStereo(const Images& images, const StereoView& view, double slack_px);
   void matchStereoOne(const Images& images, std::size_t i, const StereoView& view, double slack_px);
+  bool hasEnoughInliers(const PoseEstimate& estimate) const;
   /// So few of the tracks agree that the prediction was probably poor.
   bool isThin(const PoseEstimate& estimate) const;
   /// Looks again for what was not found or did not fit, where the estimated motion has it.

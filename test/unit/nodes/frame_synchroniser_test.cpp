@@ -15,7 +15,8 @@ ros::Time at(double time_s) {
 
 class Feed {
  public:
-  explicit Feed(Disparity disparity = Disparity::kMatched) : synchroniser(makeParams(disparity)) {}
+  explicit Feed(Disparity disparity = Disparity::kMatched, double rolling_shutter_ms = 0.0)
+      : synchroniser(makeParams(disparity, rolling_shutter_ms)) {}
 
   void left(double time_s) { synchroniser.addLeft(image(time_s), SteadyTime()); }
   void right(double time_s) { synchroniser.addRight(image(time_s)); }
@@ -35,8 +36,9 @@ class Feed {
   FrameSynchroniser synchroniser;
 
  private:
-  static FrameSynchroniserParams makeParams(Disparity disparity) {
+  static FrameSynchroniserParams makeParams(Disparity disparity, double rolling_shutter_ms) {
     FrameSynchroniserParams params;
+    params.rolling_shutter_ms = rolling_shutter_ms;
     params.queue_size = 4;
     params.disparity = disparity;
     return params;
@@ -119,6 +121,20 @@ TEST(FrameSynchroniser, ARightImageBeyondTheSkewIsNoPartner) {
   feed.right(0.07);
   EXPECT_FALSE(feed.synchroniser.take());
   EXPECT_EQ(feed.synchroniser.dropped(), 1u);
+}
+
+TEST(FrameSynchroniser, ARollingShutterStaysOneWhenSyncGoesQuiet) {
+  Feed feed(Disparity::kNone, 20.0);
+  const auto readoutAt = [&](double time_s) {
+    feed.left(time_s);
+    feed.right(time_s);
+    const auto frame = feed.synchroniser.take();
+    return frame ? frame->rolling_shutter_s : -1.0;
+  };
+  EXPECT_DOUBLE_EQ(readoutAt(0.0), 0.02) << "what the parameter says until camera/sync comes";
+  feed.sync(0.1, 0.0);
+  EXPECT_DOUBLE_EQ(readoutAt(0.1), 0.03);
+  EXPECT_DOUBLE_EQ(readoutAt(10.0), 0.03);
 }
 
 TEST(FrameSynchroniser, SyncNamesTheRightImage) {

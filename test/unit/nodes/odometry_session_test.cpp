@@ -89,6 +89,16 @@ TEST_F(OdometrySessionTest, FollowsTheDriveInTheBaseFrame) {
   EXPECT_EQ(session_.framesProcessed(), 6u);
 }
 
+TEST_F(OdometrySessionTest, RefusesARollingShutterThatCannotBe) {
+  for (const double rolling_shutter_s : {30.0, -0.01, std::nan("")}) {
+    Inbox::Work work = frameAt(0.0);
+    work.frame.rolling_shutter_s = rolling_shutter_s;
+    const SessionOutput output = process(work);
+    EXPECT_FALSE(output.processed);
+    EXPECT_EQ(output.errors.count("rolling_shutter"), 1u) << rolling_shutter_s;
+  }
+}
+
 TEST_F(OdometrySessionTest, WaitsForTheMountingAndNamesTheCommand) {
   transforms_.erase(ros_io::frames::kLeftOptical);
   SessionOutput output = process(frameAt(0.0));

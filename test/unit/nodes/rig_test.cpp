@@ -59,6 +59,17 @@ TEST(CaptureSetup, LaterSourcesGoBeforeEarlierOnes) {
   EXPECT_EQ(config.right.controls.back().value, 1);
 }
 
+TEST(CaptureSetup, ARollingShutterIsOneOfBothCamerasAndFitsBetweenTwoImages) {
+  nodes::CaptureSetup setup;
+  setup.read({{YAML::Load("{left: {device: a}, right: {device: b}, rate_hz: 30.0, rolling_shutter_ms: 25.0}"),
+               "rig"}});
+  const capture::StereoConfig config = setup.toConfig();
+  EXPECT_DOUBLE_EQ(config.left.rolling_shutter_s, 0.025);
+  EXPECT_DOUBLE_EQ(config.right.rolling_shutter_s, 0.025);
+  setup.params.capture.rolling_shutter_ms = 40.0;
+  EXPECT_THROW(setup.toConfig(), ParameterError);
+}
+
 TEST(CaptureSetup, OneCameraIsNoStereoCamera) {
   nodes::CaptureSetup setup;
   EXPECT_THROW(setup.toConfig(), ParameterError);

@@ -167,6 +167,12 @@ TEST_F(StereoOdometryFaultsTest, RefusesImpossibleStamps) {
   frame = frames[5];
   frame.right_time_s += 7200.0;
   EXPECT_THROW(vo.process(frame), std::invalid_argument) << "clocks of two time zones";
+  for (const double readout_s : {-0.01, 30.0, std::numeric_limits<double>::quiet_NaN()}) {
+    frame = frames[5];
+    frame.readout_s = readout_s;
+    EXPECT_THROW(vo.process(frame), std::invalid_argument)
+        << readout_s << " s from the first row to the last";
+  }
   FrameResult result;
   for (std::size_t i = 5; i < frames.size(); ++i) result = vo.process(frames[i]);
   EXPECT_EQ(result.state, State::kTracking) << result.reason;

@@ -75,6 +75,21 @@ TEST_F(RollingOdometryTest, StartsInTheMidstOfADrive) {
   EXPECT_LT(errors.aware_m, 0.005);
 }
 
+TEST_F(RollingOdometryTest, ACoveredSecondImageDoesNotBendTheStart) {
+  constexpr double kReadout_s = 0.06;
+  const auto seconds = [](double time_s) { return time_s; };
+  StereoOdometry vo = odometry();
+  vo.process(rollingFrameAt(0.0, kReadout_s, seconds));
+  StereoFrame covered = rollingFrameAt(0.1, kReadout_s, seconds);
+  covered.left.setTo(90);
+  EXPECT_EQ(vo.process(covered).state, State::kLost);
+  FrameResult result;
+  for (const double time_s : {0.2, 0.3, 0.4})
+    result = vo.process(rollingFrameAt(time_s, kReadout_s, seconds));
+  ASSERT_EQ(result.state, State::kTracking) << result.reason;
+  EXPECT_LT(endError(result, 0.4), 0.005);
+}
+
 TEST_F(StereoOdometryTest, StandsStillWithoutDrift) {
   StereoOdometry vo = odometry();
   drive(vo, course());
