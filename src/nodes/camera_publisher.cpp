@@ -48,10 +48,8 @@ std::string CameraPublisher::calibrationWarning() const {
   if (url_.rfind(kPackageUrl, 0) != 0) return {};
   return name_ + " camera: " + url_ +
          " is the example that comes with the package, of the thesis' own camera: any other one measures "
-         "wrong "
-         "distances with it, and the calibrator's COMMIT writes over it. Take `calibration` out of the rig, "
-         "or "
-         "name a file of your own there, and calibrate (docs/calibration.md)";
+         "wrong distances with it, and the calibrator's COMMIT writes over it. Take `calibration` out of the "
+         "rig, or name a file of your own there, and calibrate (docs/calibration.md)";
 }
 
 std::string CameraPublisher::urlText() {

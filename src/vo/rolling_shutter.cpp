@@ -29,8 +29,9 @@ double RollingShutter::time_s(const cv::Mat& raw_rows, const Eigen::Vector2d& px
 
 Eigen::Vector2d RollingShutter::seenLeft(const Eigen::Vector2d& px, const Eigen::Vector3d& p_camera,
                                          const Vector6d& twist) const {
+  if (isGlobal()) return px;
   const Eigen::Vector3d p = p_camera + displacement(twist, leftTime_s(px), p_camera, 1.0);
-  if (isGlobal() || p.z() < kNearestDepth_m || p_camera.z() < kNearestDepth_m) return px;
+  if (p.z() < kNearestDepth_m || p_camera.z() < kNearestDepth_m) return px;
   return px + projectLeft(calibration_, p) - projectLeft(calibration_, p_camera);
 }
 

@@ -56,6 +56,10 @@ Vector6d StereoOdometry::twistAt(const StereoView& view, const MotionPrior& prio
 }
 
 void StereoOdometry::straighten(const StereoView& view, const MotionPrior& prior) {
+  if (shutter_.isGlobal()) {
+    for (Track& track : tracks_) track.seen = track.in_image;
+    return;
+  }
   row_twist_ = twistAt(view, prior);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = tracks_[i];

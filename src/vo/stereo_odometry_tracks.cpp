@@ -15,8 +15,9 @@ Eigen::Vector2d StereoOdometry::predictedPixel(std::size_t i, const StereoView& 
 }
 
 Eigen::Vector2d StereoOdometry::predictedInImage(std::size_t i, const StereoView& view) const {
-  return shutter_.seenLeft(predictedPixel(i, view), view.T_camera_world * landmarks_[i].p_world(),
-                           row_twist_);
+  const Eigen::Vector2d px = predictedPixel(i, view);
+  if (shutter_.isGlobal()) return px;
+  return shutter_.seenLeft(px, view.T_camera_world * landmarks_[i].p_world(), row_twist_);
 }
 
 Eigen::Matrix2f StereoOdometry::patchStep(std::size_t i, const StereoView& view) const {

@@ -21,8 +21,8 @@ constexpr double kLongestReadout_s = 0.2;  ///< no rolling shutter takes longer
 struct StereoFrame {
   double left_time_s = 0.0;
   double right_time_s = 0.0;
-  double readout_s =
-      0.0;            ///< rolling shutter: from the first to the last row; the times are the middle row's
+  /// Rolling shutter: time from the first row to the last; the times above are the middle row's.
+  double readout_s = 0.0;
   cv::Mat left;       ///< CV_8UC1, rectified
   cv::Mat right;      ///< CV_8UC1, rectified; may be empty where the composition only uses the disparity map
   cv::Mat disparity;  ///< CV_32FC1 in px, values <= 0 or NaN mean "no disparity"; empty if there is no map
