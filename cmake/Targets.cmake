@@ -1,10 +1,18 @@
 # One way to declare a library, a program and a test.
 
-# stereo_nav_library(<name> SOURCES ... LINK ...): shared library lib<name>.so with the package's public headers.
+# stereo_nav_private_headers(<name>): lets a target of this package include "ROOM/header.h" from src/. Only in quotes, so
+# that <ros/...> stays ROS's own.
+function(stereo_nav_private_headers name)
+  target_compile_options(${name} PRIVATE "SHELL:-iquote ${PROJECT_SOURCE_DIR}/src")
+endfunction()
+
+# stereo_nav_library(<name> SOURCES ... LINK ...): shared library lib<name>.so. Public headers are in
+# include/stereo_nav, all others beside their sources: "ROOM/header.h".
 function(stereo_nav_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/include)
+  stereo_nav_private_headers(${name})
   # Third-party headers are not held to our warnings.
   target_include_directories(${name} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
   target_link_libraries(${name} PUBLIC ${ARG_LINK})
@@ -18,6 +26,7 @@ endfunction()
 function(stereo_nav_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  stereo_nav_private_headers(${name})
   target_include_directories(${name} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
   install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -121,11 +121,10 @@ def digest(*paths):
 
 
 def simulator_digest():
-    return digest("src/sim", "include/stereo_nav/sim", "src/ros_io/simulated_messages.cpp", "src/tools/simulated_bag.cpp",
+    return digest("src/sim", "src/core", "src/ros/simulated_messages.cpp", "src/tools/simulate",
                   "config/thesis")
 
 
 def odometry_digest():
-    return digest("src/vo", "include/stereo_nav/vo", "src/eval", "src/params", "src/ros_io/stereo_processing.cpp",
-                  "src/ros_io/recording.cpp", "src/ros_io/pairing.cpp", "src/tools/evaluate_run.cpp",
-                  "src/tools/recorded_disparity.cpp")
+    return digest("src/core", "src/vision", "src/odometry", "src/eval", "src/ros/stereo_processing.cpp",
+                  "src/ros/recording.cpp", "src/ros/pairing.cpp", "src/tools/evaluate")

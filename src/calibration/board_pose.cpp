@@ -6,13 +6,13 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 
-#include "stereo_nav/vo/pose_estimator.h"
+#include "vision/reprojection.h"
 
 namespace stereo_nav::calibration {
 namespace {
 
 /// The board where its corners triangulate to.
-std::optional<Eigen::Isometry3d> alignTriangulated(const vo::StereoCalibration& calibration,
+std::optional<Eigen::Isometry3d> alignTriangulated(const vision::StereoCalibration& calibration,
                                                    const std::vector<Eigen::Vector3d>& corners,
                                                    const std::vector<Eigen::Vector2d>& left,
                                                    const std::vector<Eigen::Vector2d>& right) {
@@ -29,40 +29,40 @@ std::optional<Eigen::Isometry3d> alignTriangulated(const vo::StereoCalibration& 
 
 }  // namespace
 
-std::optional<BoardPose> estimateBoardPose(const vo::StereoCalibration& calibration,
+std::optional<BoardPose> estimateBoardPose(const vision::StereoCalibration& calibration,
                                            const Checkerboard& board,
                                            const std::vector<Eigen::Vector2d>& left_rect_px,
                                            const std::vector<Eigen::Vector2d>& right_rect_px) {
   const std::vector<Eigen::Vector3d> corners = board.corners();
   const auto start = alignTriangulated(calibration, corners, left_rect_px, right_rect_px);
   if (!start) return std::nullopt;
-  vo::StereoView view;
+  vision::StereoView view;
   view.T_camera_world = *start;
   BoardPose pose;
   constexpr int kIterations = 10;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    vo::Matrix6d information = vo::Matrix6d::Zero();
-    vo::Vector6d gradient = vo::Vector6d::Zero();
+    Matrix6d information = Matrix6d::Zero();
+    Vector6d gradient = Vector6d::Zero();
     double squares = 0.0;
     pose.residual_px.clear();
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      vo::StereoObservation seen;
+      vision::StereoObservation seen;
       seen.left_px = left_rect_px[i];
       seen.right_px = right_rect_px[i];
       seen.has_right = true;
-      vo::ViewResidual residual;
-      if (!vo::viewResidual(calibration, view, corners[i], seen, residual)) return std::nullopt;
+      vision::ViewResidual residual;
+      if (!vision::viewResidual(calibration, view, corners[i], seen, residual)) return std::nullopt;
       information += residual.by_pose.transpose() * residual.by_pose;
       gradient += residual.by_pose.transpose() * residual.error_px;
       squares += residual.error_px.squaredNorm();
       pose.residual_px.push_back(residual.error_px);
     }
-    const Eigen::LDLT<vo::Matrix6d> solver(information);
+    const Eigen::LDLT<Matrix6d> solver(information);
     if (solver.info() != Eigen::Success || !solver.isPositive()) return std::nullopt;
     const auto freedom = static_cast<double>(4 * corners.size() - 6);
     pose.T_camera_board = view.T_camera_world;
     pose.covariance = squares / freedom * information.inverse();
-    view.T_camera_world = vo::renormalised(vo::expMotion(solver.solve(-gradient)) * view.T_camera_world);
+    view.T_camera_world = renormalised(expMotion(solver.solve(-gradient)) * view.T_camera_world);
   }
   if (!pose.T_camera_board.matrix().allFinite()) return std::nullopt;
   return pose;

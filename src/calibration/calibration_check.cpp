@@ -13,7 +13,7 @@ double square(double value) {
 }
 
 /// Length of all rows and columns of the triangulated board over that of the true one.
-double boardScale(const vo::StereoCalibration& c, const Checkerboard& board,
+double boardScale(const vision::StereoCalibration& c, const Checkerboard& board,
                   const std::vector<Eigen::Vector2d>& left, const std::vector<Eigen::Vector2d>& right) {
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < left.size(); ++i) {
@@ -168,7 +168,7 @@ bool CalibrationCheck::good() const {
   return std::all_of(criteria.begin(), criteria.end(), [](const Criterion& one) { return one.met(); });
 }
 
-double CalibrationCheck::depthNoise_m(const vo::StereoCalibration& calibration, double depth_m) const {
+double CalibrationCheck::depthNoise_m(const vision::StereoCalibration& calibration, double depth_m) const {
   return square(depth_m) * disparity_rms_px / (calibration.fx * calibration.baseline_m);
 }
 

@@ -1,10 +1,10 @@
-#include "stereo_nav/calibration/imu_camera_rotation.h"
+#include "calibration/imu_camera_rotation.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "turns.h"
+#include "calibration/turns.h"
 
 namespace stereo_nav::calibration {
 namespace {
@@ -83,7 +83,7 @@ Linearised linearise(const std::vector<Turn>& turns, const ImuTurns& imu, const 
     if (!now || !before || !after) continue;
     const Eigen::Vector3d residual = residualOf(fit, turn, *now);
     Eigen::Matrix<double, 3, 7> jacobian;
-    jacobian.leftCols<3>() = vo::skew(turn.angle_rad - residual);
+    jacobian.leftCols<3>() = skew(turn.angle_rad - residual);
     jacobian.middleCols<3>(3) = turn.duration_s() * fit.R_camera_imu;
     jacobian.col(6) = -fit.R_camera_imu * (*after - *before) / (2.0 * kStep_s);
     const double weight = 1.0 / (1.0 + residual.squaredNorm() / (scale_rad * scale_rad));
@@ -117,7 +117,7 @@ Fit refine(const std::vector<Turn>& turns, const ImuTurns& imu, Fit fit, ImuCame
     last = linearise(turns, imu, fit, 2.0 * spreadOf(turns, imu, fit));
     if (iteration == kIterations) break;
     const Vector7d step = -last.information.completeOrthogonalDecomposition().solve(last.gradient);
-    fit.R_camera_imu = vo::expRotation(step.head<3>()) * fit.R_camera_imu;
+    fit.R_camera_imu = expRotation(step.head<3>()) * fit.R_camera_imu;
     fit.bias_rad_s += step.segment<3>(3);
     fit.offset_s += std::clamp(step(6), -0.02, 0.02);
   }
@@ -152,7 +152,7 @@ void describeMotion(const std::vector<Turn>& turns, ImuCameraRotation& result) {
 }  // namespace
 
 ImuCameraRotation calibrateImuCameraRotation(const std::vector<CameraOrientation>& camera,
-                                             const std::vector<vo::ImuSample>& imu_samples,
+                                             const std::vector<ImuSample>& imu_samples,
                                              const ImuCameraRotationParams& params) {
   ImuCameraRotation result;
   const std::vector<Turn> turns = turnsOf(camera, params.interval_s);

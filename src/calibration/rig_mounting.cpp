@@ -1,4 +1,4 @@
-#include "stereo_nav/calibration/rig_mounting.h"
+#include "calibration/rig_mounting.h"
 
 #include <yaml-cpp/yaml.h>
 

@@ -1,4 +1,4 @@
-#include "turns.h"
+#include "calibration/turns.h"
 
 #include <cmath>
 #include <limits>
@@ -30,15 +30,15 @@ std::vector<Turn> turnsOf(const std::vector<CameraOrientation>& camera, double i
     if (now.run != start->run) start = &now;
     if (now.time_s - start->time_s < interval_s - kSlack_s) continue;
     turns.push_back(
-        {start->time_s, now.time_s, vo::logRotation(start->R_start_camera.transpose() * now.R_start_camera)});
+        {start->time_s, now.time_s, logRotation(start->R_start_camera.transpose() * now.R_start_camera)});
     start = &now;
   }
   return turns;
 }
 
-ImuTurns::ImuTurns(const std::vector<vo::ImuSample>& samples, const Eigen::Vector3d& bias_rad_s)
+ImuTurns::ImuTurns(const std::vector<ImuSample>& samples, const Eigen::Vector3d& bias_rad_s)
     : history_(std::numeric_limits<double>::infinity()) {
-  for (vo::ImuSample sample : samples) {
+  for (ImuSample sample : samples) {
     if (sample.angular_velocity) *sample.angular_velocity -= bias_rad_s;
     history_.add(sample);
   }
@@ -48,10 +48,10 @@ std::optional<Eigen::Vector3d> ImuTurns::turn(const Turn& camera, double offset_
   // increment() takes the earlier frame's coordinates into the later one's.
   const auto R_to_from = history_.increment(camera.from_s + offset_s, camera.to_s + offset_s);
   if (!R_to_from) return std::nullopt;
-  return vo::logRotation(R_to_from->transpose());
+  return logRotation(R_to_from->transpose());
 }
 
-std::string refuseData(const std::vector<Turn>& turns, const std::vector<vo::ImuSample>& imu,
+std::string refuseData(const std::vector<Turn>& turns, const std::vector<ImuSample>& imu,
                        const ImuCameraRotationParams& params) {
   std::ostringstream text;
   if (imu.empty()) {

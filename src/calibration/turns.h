@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "stereo_nav/calibration/imu_camera_rotation.h"
-#include "stereo_nav/vo/lie.h"
-#include "stereo_nav/vo/rotation_history.h"
+#include "calibration/imu_camera_rotation.h"
+#include "core/rotation_history.h"
+#include "stereo_nav/core/lie.h"
 
 namespace stereo_nav::calibration {
 
@@ -26,17 +26,17 @@ std::vector<Turn> turnsOf(const std::vector<CameraOrientation>& camera, double i
 class ImuTurns {
  public:
   /// `bias_rad_s` is taken off the rates.
-  ImuTurns(const std::vector<vo::ImuSample>& samples, const Eigen::Vector3d& bias_rad_s);
+  ImuTurns(const std::vector<ImuSample>& samples, const Eigen::Vector3d& bias_rad_s);
 
   /// Nothing where the samples do not cover the interval. `offset_s`: the IMU's stamps are late by it.
   std::optional<Eigen::Vector3d> turn(const Turn& camera, double offset_s) const;
 
  private:
-  vo::RotationHistory history_;
+  RotationHistory history_;
 };
 
 /// Why the data cannot be used; empty if they can be tried.
-std::string refuseData(const std::vector<Turn>& turns, const std::vector<vo::ImuSample>& imu,
+std::string refuseData(const std::vector<Turn>& turns, const std::vector<ImuSample>& imu,
                        const ImuCameraRotationParams& params);
 
 /// Why the result cannot be used; empty if it can.

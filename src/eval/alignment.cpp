@@ -1,4 +1,4 @@
-#include "stereo_nav/eval/alignment.h"
+#include "eval/alignment.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "json_text.h"
-#include "stereo_nav/eval/alignment.h"
-#include "stereo_nav/eval/metrics.h"
+#include "eval/alignment.h"
+#include "eval/json_text.h"
+#include "eval/metrics.h"
+#include "stereo_nav/core/input_error.h"
 
 namespace stereo_nav::eval {
 namespace {
@@ -50,7 +51,7 @@ AssociatedPoses associate(const EvaluationInput& input, const Poses& T_odom_base
       "from %.3f to %.3f s; give the ground truth of this recording, in the same clock",
       associated.frames.size(), input.frames.size(), input.frames.front().time_s, input.frames.back().time_s,
       input.ground_truth.front().time_s, input.ground_truth.back().time_s);
-  throw EvaluationError(message);
+  throw InputError(message);
 }
 
 Poses moved(const Eigen::Isometry3d& T_new_old, const Poses& poses, const Eigen::Isometry3d& T_body_other) {
@@ -155,7 +156,7 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
 }  // namespace
 
 Evaluation evaluate(const EvaluationInput& input) {
-  if (input.frames.empty()) throw EvaluationError(input.input + ": holds no stereo frame to evaluate");
+  if (input.frames.empty()) throw InputError(input.input + ": holds no stereo frame to evaluate");
   const Poses T_odom_base = heldPoses(input.frames);
   Evaluation evaluation = withoutGroundTruth(input, T_odom_base);
   if (input.ground_truth.empty()) return evaluation;

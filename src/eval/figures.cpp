@@ -1,4 +1,4 @@
-#include "figures.h"
+#include "eval/figures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gnuplot.h"
+#include "eval/gnuplot.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "stereo_nav/eval/atomic_file.h"
+#include "core/atomic_file.h"
 
 extern char** environ;
 

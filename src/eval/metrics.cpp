@@ -1,4 +1,4 @@
-#include "stereo_nav/eval/metrics.h"
+#include "eval/metrics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "figures.h"
-#include "gnuplot.h"
-#include "stereo_nav/eval/atomic_file.h"
+#include "core/atomic_file.h"
+#include "eval/figures.h"
+#include "eval/gnuplot.h"
 
 namespace stereo_nav::eval {
 namespace {

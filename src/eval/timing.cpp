@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "json_text.h"
-#include "stereo_nav/eval/metrics.h"
+#include "eval/json_text.h"
+#include "eval/metrics.h"
 
 namespace stereo_nav::eval {
 namespace {

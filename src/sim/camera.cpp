@@ -1,4 +1,4 @@
-#include "stereo_nav/sim/camera.h"
+#include "sim/camera.h"
 
 #include <yaml-cpp/yaml.h>
 

@@ -1,10 +1,10 @@
-#include "stereo_nav/sim/image_sensor.h"
+#include "sim/image_sensor.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "stereo_nav/sim/random.h"
+#include "sim/random.h"
 
 namespace stereo_nav::sim {
 namespace {

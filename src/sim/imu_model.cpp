@@ -1,8 +1,8 @@
-#include "stereo_nav/sim/imu_model.h"
+#include "sim/imu_model.h"
 
 #include <cmath>
 
-#include "stereo_nav/sim/random.h"
+#include "sim/random.h"
 
 namespace stereo_nav::sim {
 namespace {
@@ -30,13 +30,12 @@ double quantise(double value, double step) {
   return step > 0.0 ? step * std::round(value / step) : value;
 }
 
-vo::ImuSample thesisSample(const ImuParams& params, const BaseState& state, double time_s,
-                           RandomStream& random) {
+ImuSample thesisSample(const ImuParams& params, const BaseState& state, double time_s, RandomStream& random) {
   Eigen::Vector3d angles_deg = yawPitchRoll(state.T_world_base.linear()) / kRadPerDeg;
   angles_deg += params.angle_noise_deg * normalVector(random);
   angles_deg.x() += params.power_on_yaw_deg + params.yaw_drift_dps * time_s;
   for (double& angle : angles_deg) angle = quantise(angle, params.quantisation_deg);
-  vo::ImuSample sample;
+  ImuSample sample;
   sample.q_world_imu = attitude(angles_deg * kRadPerDeg);
   return sample;
 }
@@ -45,10 +44,10 @@ Eigen::Vector3d specificForce(const BaseState& state) {
   return state.T_world_base.linear().transpose() * (state.acceleration_world - kGravity_world);
 }
 
-vo::ImuSample rawSample(const ImuParams& params, const BaseState& state, const Eigen::Vector3d& gyro_bias_dps,
-                        const Eigen::Vector3d& accel_bias, RandomStream& random) {
+ImuSample rawSample(const ImuParams& params, const BaseState& state, const Eigen::Vector3d& gyro_bias_dps,
+                    const Eigen::Vector3d& accel_bias, RandomStream& random) {
   const double root_rate = std::sqrt(params.rate_hz);  // white noise of a density, sampled
-  vo::ImuSample sample;
+  ImuSample sample;
   const Eigen::Vector3d gyro_error =
       gyro_bias_dps + params.gyro_noise_dps_rthz * root_rate * normalVector(random);
   sample.angular_velocity = state.angular_velocity_base + kRadPerDeg * gyro_error;
@@ -57,8 +56,8 @@ vo::ImuSample rawSample(const ImuParams& params, const BaseState& state, const E
   return sample;
 }
 
-vo::ImuSample perfectSample(const BaseState& state) {
-  vo::ImuSample sample;
+ImuSample perfectSample(const BaseState& state) {
+  ImuSample sample;
   sample.q_world_imu = Eigen::Quaterniond(state.T_world_base.linear());
   sample.angular_velocity = state.angular_velocity_base;
   sample.linear_acceleration = specificForce(state);
@@ -67,9 +66,9 @@ vo::ImuSample perfectSample(const BaseState& state) {
 
 }  // namespace
 
-std::vector<vo::ImuSample> simulateImu(const ImuParams& params, const Trajectory& trajectory,
-                                       double duration_s, std::uint64_t seed) {
-  std::vector<vo::ImuSample> samples;
+std::vector<ImuSample> simulateImu(const ImuParams& params, const Trajectory& trajectory, double duration_s,
+                                   std::uint64_t seed) {
+  std::vector<ImuSample> samples;
   if (params.kind == ImuKind::kNone) return samples;
   RandomStream random(streamKey(seed, Stream::kImu));
   Eigen::Vector3d gyro_bias_dps = params.gyro_bias_dps * normalVector(random);
@@ -78,7 +77,7 @@ std::vector<vo::ImuSample> simulateImu(const ImuParams& params, const Trajectory
   for (std::size_t i = 0; i < count; ++i) {
     const double time_s = static_cast<double>(i) / params.rate_hz;
     const BaseState state = trajectory.state(time_s);
-    vo::ImuSample sample;
+    ImuSample sample;
     switch (params.kind) {
       case ImuKind::kNone:
         break;

@@ -1,4 +1,4 @@
-#include "ray_span.h"
+#include "sim/ray_span.h"
 
 #include <algorithm>
 #include <cmath>

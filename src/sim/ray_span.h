@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "stereo_nav/sim/scene.h"
+#include "sim/scene.h"
 
 namespace stereo_nav::sim {
 

@@ -1,4 +1,4 @@
-#include "rendered_frame.h"
+#include "sim/rendered_frame.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "ray_span.h"
-#include "stereo_nav/sim/renderer.h"
+#include "sim/ray_span.h"
+#include "sim/renderer.h"
 
 namespace stereo_nav::sim {
 

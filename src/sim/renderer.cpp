@@ -1,11 +1,11 @@
-#include "stereo_nav/sim/renderer.h"
+#include "sim/renderer.h"
 
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 
-#include "ray_span.h"
-#include "rendered_frame.h"
+#include "sim/ray_span.h"
+#include "sim/rendered_frame.h"
 
 namespace stereo_nav::sim {
 namespace {

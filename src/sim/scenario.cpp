@@ -1,10 +1,10 @@
-#include "stereo_nav/sim/scenario.h"
+#include "sim/scenario.h"
 
 #include <cmath>
 #include <set>
 #include <sstream>
 
-#include "stereo_nav/params/parameters.h"
+#include "stereo_nav/core/parameters.h"
 
 namespace stereo_nav::sim {
 namespace {

@@ -1,10 +1,10 @@
-#include "stereo_nav/sim/scene.h"
+#include "sim/scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "stereo_nav/sim/random.h"
+#include "sim/random.h"
 
 namespace stereo_nav::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "stereo_nav/sim/scene.h"
+#include "sim/scene.h"
 
 namespace stereo_nav::sim {
 namespace {

@@ -1,9 +1,9 @@
-#include "stereo_nav/sim/simulation.h"
+#include "sim/simulation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "stereo_nav/sim/random.h"
+#include "sim/random.h"
 
 namespace stereo_nav::sim {
 namespace {

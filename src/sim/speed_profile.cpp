@@ -1,4 +1,4 @@
-#include "stereo_nav/sim/speed_profile.h"
+#include "sim/speed_profile.h"
 
 #include <algorithm>
 #include <cmath>

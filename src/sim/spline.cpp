@@ -1,4 +1,4 @@
-#include "stereo_nav/sim/spline.h"
+#include "sim/spline.h"
 
 #include <algorithm>
 #include <cmath>

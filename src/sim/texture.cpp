@@ -1,11 +1,11 @@
-#include "stereo_nav/sim/texture.h"
+#include "sim/texture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "stereo_nav/sim/random.h"
+#include "sim/random.h"
 
 namespace stereo_nav::sim {
 namespace {

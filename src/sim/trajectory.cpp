@@ -1,10 +1,10 @@
-#include "stereo_nav/sim/trajectory.h"
+#include "sim/trajectory.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "stereo_nav/sim/speed_profile.h"
-#include "stereo_nav/sim/spline.h"
+#include "sim/speed_profile.h"
+#include "sim/spline.h"
 
 namespace stereo_nav::sim {
 namespace {

@@ -19,12 +19,12 @@
 #include <utility>
 #include <vector>
 
-#include "stereo_nav/capture/decoder.h"
-#include "stereo_nav/capture/pairer.h"
-#include "stereo_nav/capture/stereo_camera.h"
-#include "unit/capture/fake_kernel.h"
+#include "sensors/camera/decoder.h"
+#include "sensors/camera/pairer.h"
+#include "sensors/camera/stereo_camera.h"
+#include "unit/sensors/camera/fake_kernel.h"
 
-namespace stereo_nav::capture {
+namespace stereo_nav::camera {
 namespace {
 
 constexpr int kWidth = 640;
@@ -69,7 +69,7 @@ void pairOfMjpg(benchmark::State& state) {
     for (const auto side : {Side::Left, Side::Right}) {
       const Jpeg& jpeg = (side == Side::Left ? left : right)[index];
       Frame frame;
-      const auto problem = decode(jpeg.data(), jpeg.size(), kLayout, encoding, frame.image);
+      const auto problem = camera::decode(jpeg.data(), jpeg.size(), kLayout, encoding, frame.image);
       if (!problem.empty()) state.SkipWithError(problem.c_str());
       frame.time_ns = time_ns;
       bytes += jpeg.size();
@@ -82,7 +82,7 @@ void pairOfMjpg(benchmark::State& state) {
   state.counters["cores_at_30Hz"] =
       benchmark::Counter(static_cast<double>(state.iterations()) / 30.0,
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-  state.SetLabel(encodingName(encoding));
+  state.SetLabel(camera::encodingName(encoding));
 }
 
 /// Milliseconds.
@@ -175,7 +175,7 @@ void handOver(benchmark::State& state) {
     const Jpeg& jpeg = cameras.rightJpeg();
     const std::int64_t start_ns = cameras.now_ns();
     DecodedImage image;
-    benchmark::DoNotOptimize(decode(jpeg.data(), jpeg.size(), kLayout, Encoding::Bgr8, image));
+    benchmark::DoNotOptimize(camera::decode(jpeg.data(), jpeg.size(), kLayout, Encoding::Bgr8, image));
     alone_ns.push_back(cameras.now_ns() - start_ns);
   });
   state.counters["pairs"] = static_cast<double>(status.pairing.pairs);
@@ -197,6 +197,6 @@ BENCHMARK(handOver)->ArgName("skew_ms")->Arg(0)->Arg(8)->Iterations(35)->UseReal
 BENCHMARK(pairOfMjpg)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace stereo_nav::capture
+}  // namespace stereo_nav::camera
 
 BENCHMARK_MAIN();

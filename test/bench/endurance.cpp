@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "odometry/stereo/stereo_odometry.h"
 #include "panned_wall.h"
-#include "stereo_nav/vo/stereo_odometry.h"
 
 namespace {
 
@@ -34,20 +34,20 @@ int main(int argc, char** argv) {
   constexpr long kSettled = 1000;  // frames after which every buffer has been filled
   const long frames = std::max(2 * kSettled, argc > 1 ? std::atol(argv[1]) : 100000);
   cv::setNumThreads(1);
-  const vo::StereoCalibration calibration = bench::wallCamera({320, 240});
-  vo::StereoOdometry odometry(vo::StereoParams(), calibration, Eigen::Matrix3d::Identity());
+  const vision::StereoCalibration calibration = bench::wallCamera({320, 240});
+  odometry::StereoOdometry odometry(odometry::StereoParams(), calibration, Eigen::Matrix3d::Identity());
   bench::PannedWall wall(calibration);
   long tracked = 0;
   long settled_kB = 0;
   std::printf("| frames | resident kB | tracked |\n|---|---|---|\n");
   for (long i = 1; i <= frames; ++i) {
-    vo::StereoFrame frame = wall.next();
+    odometry::StereoFrame frame = wall.next();
     if (i % 500 < 6) {
       frame.left.setTo(0);
       frame.right.setTo(0);
     }
     if (i % 20000 == 0) odometry.reset();
-    if (odometry.process(frame).state == vo::State::kTracking) ++tracked;
+    if (odometry.process(frame).state == odometry::State::kTracking) ++tracked;
     if (i == kSettled) settled_kB = residentMemory_kB();
     if (i % (frames / 10) == 0 || i == kSettled) {
       std::printf("| %ld | %ld | %ld |\n", i, residentMemory_kB(), tracked);

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "stereo_nav/vo/odometry.h"
+#include "stereo_nav/odometry/common/odometry.h"
 
 namespace stereo_nav::bench {
 
@@ -22,8 +22,8 @@ inline cv::Mat makeTexture(const cv::Size& size) {
   return image;
 }
 
-inline vo::StereoCalibration wallCamera(const cv::Size& size) {
-  vo::StereoCalibration calibration;
+inline vision::StereoCalibration wallCamera(const cv::Size& size) {
+  vision::StereoCalibration calibration;
   calibration.width = size.width;
   calibration.height = size.height;
   calibration.fx = calibration.fy = 0.6 * size.width;
@@ -36,16 +36,16 @@ inline vo::StereoCalibration wallCamera(const cv::Size& size) {
 /// A wall that is passed sideways, back and forth, at 20 Hz: nothing to download, and every image size alike.
 class PannedWall {
  public:
-  explicit PannedWall(const vo::StereoCalibration& calibration)
+  explicit PannedWall(const vision::StereoCalibration& calibration)
       : size_(calibration.width, calibration.height),
         texture_(makeTexture({calibration.width + 400, calibration.height})) {}
 
-  vo::StereoFrame next() {
+  odometry::StereoFrame next() {
     constexpr int kSteps = 40;
     constexpr int kDisparity_px = 12;
     const int step = frame_ % (2 * kSteps);
     const int x = 3 * (step < kSteps ? step : 2 * kSteps - step);
-    vo::StereoFrame frame;
+    odometry::StereoFrame frame;
     frame.left_time_s = frame.right_time_s = 0.05 * frame_++;
     frame.left = texture_(cv::Rect(x, 0, size_.width, size_.height)).clone();
     frame.right = texture_(cv::Rect(x + kDisparity_px, 0, size_.width, size_.height)).clone();

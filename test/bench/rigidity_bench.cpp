@@ -9,14 +9,16 @@
 #include <algorithm>
 #include <random>
 
-#include "stereo_nav/vo/exact_clique.h"
-#include "stereo_nav/vo/greedy_clique.h"
-#include "stereo_nav/vo/motion.h"
-#include "stereo_nav/vo/noisy_rigidity.h"
+#include "odometry/common/exact_clique.h"
+#include "odometry/common/greedy_clique.h"
+#include "odometry/stereo/noisy_rigidity.h"
+#include "odometry/thesis/motion.h"
 
 namespace {
 
-using namespace stereo_nav::vo;
+using namespace stereo_nav;
+using namespace stereo_nav::odometry;
+using namespace stereo_nav::vision;
 
 constexpr std::size_t kPoints = 150;
 constexpr std::size_t kScenes = 100;
@@ -30,13 +32,13 @@ using Indices = std::vector<std::size_t>;
 enum Outliers { kScattered, kOneBody };
 
 struct Scene {
-  std::vector<RigidPoint> points;
+  std::vector<odometry::RigidPoint> points;
   std::vector<bool> is_static;
   Eigen::Isometry3d T_now_before;
 };
 
-StereoCalibration thesisRig() {
-  StereoCalibration calibration;
+vision::StereoCalibration thesisRig() {
+  vision::StereoCalibration calibration;
   calibration.width = 320;
   calibration.height = 240;
   calibration.fx = calibration.fy = 463.8;
@@ -47,7 +49,7 @@ StereoCalibration thesisRig() {
 }
 
 /// Seen in both images with noise, and triangulated again.
-Eigen::Vector3d measured(const StereoCalibration& c, const Eigen::Vector3d& p, std::mt19937& random) {
+Eigen::Vector3d measured(const vision::StereoCalibration& c, const Eigen::Vector3d& p, std::mt19937& random) {
   std::normal_distribution<double> noise(0.0, kNoise_px);
   const double disparity = std::max(0.5, c.fx * c.baseline_m / p.z() + noise(random));
   const double z = c.fx * c.baseline_m / disparity;
@@ -55,7 +57,7 @@ Eigen::Vector3d measured(const StereoCalibration& c, const Eigen::Vector3d& p, s
 }
 
 Scene makeScene(double outlier_share, Outliers kind, unsigned seed) {
-  const StereoCalibration calibration = thesisRig();
+  const vision::StereoCalibration calibration = thesisRig();
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   Scene scene;
@@ -78,7 +80,7 @@ Scene makeScene(double outlier_share, Outliers kind, unsigned seed) {
   return scene;
 }
 
-Indices chooseStar(const ConsistencyGraph& graph) {
+Indices chooseStar(const odometry::ConsistencyGraph& graph) {
   Indices best;
   for (std::size_t i = 0; i < graph.size(); ++i) {
     Indices members;
@@ -90,51 +92,55 @@ Indices chooseStar(const ConsistencyGraph& graph) {
   return best;
 }
 
-Indices agreeing(const StereoCalibration& calibration, const std::vector<RigidPoint>& points,
-                 const Eigen::Isometry3d& T) {
+Indices agreeing(const vision::StereoCalibration& calibration,
+                 const std::vector<odometry::RigidPoint>& points, const Eigen::Isometry3d& T) {
   Indices members;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d error =
-        reprojectionResidual(calibration, {points[i].before, points[i].now}, T, nullptr);
+        odometry::reprojectionResidual(calibration, {points[i].before, points[i].now}, T, nullptr);
     if (error.norm() <= kMaxError_px) members.push_back(i);
   }
   return members;
 }
 
-Indices chooseRansac(const StereoCalibration& calibration, const std::vector<RigidPoint>& points) {
+Indices chooseRansac(const vision::StereoCalibration& calibration,
+                     const std::vector<odometry::RigidPoint>& points) {
   std::mt19937 random(1);
   Indices best;
   for (int draw = 0; draw < kDraws; ++draw) {
-    std::vector<PointPair> pairs;
+    std::vector<odometry::PointPair> pairs;
     for (int k = 0; k < 3; ++k) {
-      const RigidPoint& point = points[random() % points.size()];
+      const odometry::RigidPoint& point = points[random() % points.size()];
       pairs.push_back({point.before, point.now});
     }
-    Indices members = agreeing(calibration, points, alignPoints(pairs));
+    Indices members = agreeing(calibration, points, odometry::alignPoints(pairs));
     if (members.size() > best.size()) best = std::move(members);
   }
   return best;
 }
 
-enum Method { kExact, kGreedy, kStar, kRansac };
+enum odometry::Method { kExact, kGreedy, kStar, kRansac };
 
-Indices choose(Method method, const StereoCalibration& calibration, const std::vector<RigidPoint>& points) {
+Indices choose(odometry::Method method, const vision::StereoCalibration& calibration,
+               const std::vector<odometry::RigidPoint>& points) {
   if (method == kRansac) return chooseRansac(calibration, points);
-  const ConsistencyGraph graph = buildNoisyRigidityGraph({}, calibration, points);
-  if (method == kGreedy) return greedyClique(graph);
-  return method == kStar ? chooseStar(graph) : largestClique(graph, kBudget).members;
+  const odometry::ConsistencyGraph graph = odometry::buildNoisyRigidityGraph({}, calibration, points);
+  if (method == kGreedy) return odometry::greedyClique(graph);
+  return method == kStar ? chooseStar(graph) : odometry::largestClique(graph, kBudget).members;
 }
 
-double motionError_mm(const StereoCalibration& calibration, const Scene& scene, const Indices& chosen) {
-  std::vector<PointPair> pairs;
+double motionError_mm(const vision::StereoCalibration& calibration, const Scene& scene,
+                      const Indices& chosen) {
+  std::vector<odometry::PointPair> pairs;
   for (const std::size_t i : chosen) pairs.push_back({scene.points[i].before, scene.points[i].now});
   if (pairs.size() < 3) return 1e3;
-  const RefinedMotion motion = refineMotion({}, calibration, pairs, alignPoints(pairs));
+  const odometry::RefinedMotion motion =
+      odometry::refineMotion({}, calibration, pairs, odometry::alignPoints(pairs));
   return 1e3 * (motion.T_cur_prev.translation() - scene.T_now_before.translation()).norm();
 }
 
-void rigidity(benchmark::State& state, Method method, Outliers kind) {
-  const StereoCalibration calibration = thesisRig();
+void rigidity(benchmark::State& state, odometry::Method method, Outliers kind) {
+  const vision::StereoCalibration calibration = thesisRig();
   std::vector<Scene> scenes;
   for (unsigned seed = 0; seed < kScenes; ++seed) {
     scenes.push_back(makeScene(0.01 * static_cast<double>(state.range(0)), kind, seed));

@@ -9,15 +9,17 @@
 #include <opencv2/video/tracking.hpp>
 #include <string>
 
+#include "odometry/stereo/stereo_odometry.h"
 #include "panned_wall.h"
-#include "stereo_nav/vo/stereo_odometry.h"
 
 namespace {
 
 using namespace stereo_nav;
-using namespace stereo_nav::vo;
+using namespace stereo_nav;
+using namespace stereo_nav::odometry;
+using namespace stereo_nav::vision;
 
-StereoCalibration calibrationOf(const benchmark::State& state) {
+vision::StereoCalibration calibrationOf(const benchmark::State& state) {
   return bench::wallCamera({static_cast<int>(state.range(0)), static_cast<int>(state.range(1))});
 }
 
@@ -31,20 +33,20 @@ void sizes(benchmark::internal::Benchmark* bench) {
 
 void wholeFrame(benchmark::State& state, int features) {
   cv::setNumThreads(1);
-  const StereoCalibration calibration = calibrationOf(state);
-  StereoParams params;
+  const vision::StereoCalibration calibration = calibrationOf(state);
+  odometry::StereoParams params;
   params.corners.features = features;
   params.corners.cells = features * 3 / 2;
-  StereoOdometry odometry(params, calibration, Eigen::Matrix3d::Identity());
+  odometry::StereoOdometry odometry(params, calibration, Eigen::Matrix3d::Identity());
   bench::PannedWall wall(calibration);
   double inliers = 0.0;
   std::map<std::string, double> stages_ms;
   for (int i = 0; i < 5; ++i) odometry.process(wall.next());
   for (auto _ : state) {
     state.PauseTiming();
-    const StereoFrame frame = wall.next();
+    const odometry::StereoFrame frame = wall.next();
     state.ResumeTiming();
-    const FrameResult result = odometry.process(frame);
+    const odometry::FrameResult result = odometry.process(frame);
     inliers += result.inliers;
     for (const auto& stage : result.stage_times) stages_ms[stage.stage] += stage.milliseconds;
   }
@@ -59,14 +61,15 @@ BENCHMARK_CAPTURE(wholeFrame, features_1000, 1000)->Apply(sizes);
 /// Both pyramids, one FAST pass, one forward and one left-right KLT of 200 points.
 void opencvFloor(benchmark::State& state) {
   cv::setNumThreads(1);
-  const StereoCalibration calibration = calibrationOf(state);
-  const PatchTrackerParams params;
+  const vision::StereoCalibration calibration = calibrationOf(state);
+  const vision::PatchTrackerParams params;
   bench::PannedWall wall(calibration);
-  const StereoFrame before = wall.next();
-  const StereoFrame now = wall.next();
+  const odometry::StereoFrame before = wall.next();
+  const odometry::StereoFrame now = wall.next();
   std::vector<cv::Point2f> points;
   for (const cv::Point2f& px :
-       GridCornerDetector(GridCornerDetectorParams(), before.left.size()).detect(before.left, {})) {
+       vision::GridCornerDetector(vision::GridCornerDetectorParams(), before.left.size())
+           .detect(before.left, {})) {
     points.push_back(px);
   }
   const cv::Size window(params.window_px, params.window_px);
@@ -94,28 +97,28 @@ BENCHMARK(opencvFloor)->Apply(sizes);
 
 void pyramid(benchmark::State& state) {
   cv::setNumThreads(1);
-  const StereoFrame frame = bench::PannedWall(calibrationOf(state)).next();
-  for (auto _ : state) benchmark::DoNotOptimize(ImagePyramid(frame.left, 4));
+  const odometry::StereoFrame frame = bench::PannedWall(calibrationOf(state)).next();
+  for (auto _ : state) benchmark::DoNotOptimize(vision::ImagePyramid(frame.left, 4));
 }
 BENCHMARK(pyramid)->Apply(sizes);
 
 void detect(benchmark::State& state) {
   cv::setNumThreads(1);
-  const StereoFrame frame = bench::PannedWall(calibrationOf(state)).next();
-  GridCornerDetector detector(GridCornerDetectorParams(), frame.left.size());
+  const odometry::StereoFrame frame = bench::PannedWall(calibrationOf(state)).next();
+  vision::GridCornerDetector detector(vision::GridCornerDetectorParams(), frame.left.size());
   for (auto _ : state) benchmark::DoNotOptimize(detector.detect(frame.left, {}));
 }
 BENCHMARK(detect)->Apply(sizes);
 
 void stereoSearch(benchmark::State& state) {
   cv::setNumThreads(1);
-  const StereoCalibration calibration = calibrationOf(state);
-  const StereoFrame frame = bench::PannedWall(calibration).next();
-  const ImagePyramid left(frame.left, 4);
-  const ImagePyramid right(frame.right, 4);
-  const auto corners =
-      GridCornerDetector(GridCornerDetectorParams(), frame.left.size()).detect(frame.left, {});
-  const SparseStereoMatcher matcher(SparseStereoParams(), calibration);
+  const vision::StereoCalibration calibration = calibrationOf(state);
+  const odometry::StereoFrame frame = bench::PannedWall(calibration).next();
+  const vision::ImagePyramid left(frame.left, 4);
+  const vision::ImagePyramid right(frame.right, 4);
+  const auto corners = vision::GridCornerDetector(vision::GridCornerDetectorParams(), frame.left.size())
+                           .detect(frame.left, {});
+  const vision::SparseStereoMatcher matcher(vision::SparseStereoParams(), calibration);
   for (auto _ : state) {
     for (const cv::Point2f& px : corners) {
       const Eigen::Vector2d left_px(static_cast<double>(px.x), static_cast<double>(px.y));

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "stereo_nav/imu/frame_decoder.h"
+#include "sensors/imu/frame_decoder.h"
 
 namespace stereo_nav::imu {
 

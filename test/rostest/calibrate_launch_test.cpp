@@ -13,7 +13,7 @@
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
-#include "stereo_nav/params/parameters.h"
+#include "stereo_nav/core/parameters.h"
 #include "support/command.h"
 #include "support/virtual_screen.h"
 #include "v4l2/checkerboard.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "rostest/graph_probe.h"
-#include "stereo_nav/imu/module_angles.h"
+#include "sensors/imu/module_angles.h"
 
 namespace stereo_nav::test {
 namespace {

@@ -12,8 +12,8 @@
 #include <functional>
 #include <map>
 
-#include "stereo_nav/imu/calibration.h"
-#include "stereo_nav/imu/module_angles.h"
+#include "sensors/imu/module_angles.h"
+#include "stereo_nav/sensors/imu/calibration.h"
 #include "support/node_process.h"
 
 namespace stereo_nav::test {

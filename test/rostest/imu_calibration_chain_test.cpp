@@ -9,8 +9,8 @@
 #include <fstream>
 #include <memory>
 
-#include "stereo_nav/eval/trajectory.h"
-#include "stereo_nav/imu/calibration.h"
+#include "stereo_nav/core/trajectory.h"
+#include "stereo_nav/sensors/imu/calibration.h"
 #include "support/command.h"
 #include "support/node_process.h"
 
@@ -44,14 +44,14 @@ Quaterniond tiltedAtRest(double /*time_s*/) {
 
 /// What imu_emulator is to follow.
 void writeTrajectory(const std::string& path, Quaterniond (*attitude)(double), double duration_s) {
-  eval::Trajectory trajectory;
+  Trajectory trajectory;
   for (double t = 0.0; t < duration_s; t += 0.02) {
-    eval::StampedPose pose;
+    StampedPose pose;
     pose.time_s = 1000.0 + t;
     pose.T_world_body.linear() = attitude(t).toRotationMatrix();
     trajectory.push_back(pose);
   }
-  std::ofstream(path) << eval::toTum(trajectory);
+  std::ofstream(path) << toTum(trajectory);
 }
 
 std::string folder;

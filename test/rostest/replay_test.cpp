@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "rostest/graph_probe.h"
-#include "stereo_nav/eval/trajectory.h"
+#include "stereo_nav/core/trajectory.h"
 
 namespace stereo_nav::test {
 namespace {
@@ -32,7 +32,7 @@ Eigen::Isometry3d evaluated(const std::string& bag, const std::string& config) {
   const std::string command =
       program.string() + " '" + bag + "' --config " + config + " --output " + folder + " > /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
-  const eval::Trajectory trajectory = eval::readTum(folder + "/trajectory.tum");
+  const Trajectory trajectory = readTum(folder + "/trajectory.tum");
   std::filesystem::remove_all(folder);
   return trajectory.back().T_world_body;
 }

@@ -3,8 +3,8 @@
 #include <ros/ros.h>
 #include <signal.h>
 
+#include "ros/slave_api.h"
 #include "rostest/graph_probe.h"
-#include "stereo_nav/nodes/slave_api.h"
 
 namespace stereo_nav::test {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kRecovery_s = 60.0;
 /// 0 while the node does not answer.
 pid_t processOf(const std::string& node) {
   XmlRpc::XmlRpcValue pid;
-  return nodes::askNode(node, "getPid", pid) ? static_cast<int>(pid) : 0;
+  return ros_io::askNode(node, "getPid", pid) ? static_cast<int>(pid) : 0;
 }
 
 class Restart : public testing::TestWithParam<const char*> {};

@@ -10,9 +10,9 @@
 
 #include <optional>
 
+#include "ros/rig.h"
 #include "rostest/diagnostics_probe.h"
 #include "rostest/graph_probe.h"
-#include "stereo_nav/ros_io/rig.h"
 #include "support/command.h"
 
 namespace stereo_nav::test {

@@ -12,10 +12,10 @@
 #include <future>
 #include <sstream>
 
+#include "ros/rig.h"
 #include "rostest/graph_probe.h"
+#include "sim/simulation.h"
 #include "stereo_nav/StereoSync.h"
-#include "stereo_nav/ros_io/rig.h"
-#include "stereo_nav/sim/simulation.h"
 #include "support/command.h"
 
 namespace stereo_nav::test {

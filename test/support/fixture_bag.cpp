@@ -8,9 +8,9 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "core/base_pose.h"
 #include "stereo_nav/StereoSync.h"
-#include "stereo_nav/ros_io/topics.h"
-#include "stereo_nav/vo/base_pose.h"
+#include "stereo_nav/ros/topics.h"
 #include "support/textured_room.h"
 
 namespace stereo_nav::test {
@@ -34,7 +34,7 @@ Eigen::Isometry3d baseToCamera() {
 }
 
 Eigen::Isometry3d basePoseAt(double time_s) {
-  return vo::basePose(baseToCamera(), roomDrive(time_s));
+  return basePose(baseToCamera(), roomDrive(time_s));
 }
 
 sensor_msgs::Image imageOf(const cv::Mat& grey, const ros::Time& stamp) {
@@ -58,7 +58,7 @@ void writeTransforms(rosbag::Bag& bag) {
 }
 
 void writeFrame(rosbag::Bag& bag, const FixtureBag& fixture, int index) {
-  const vo::StereoCalibration c = roomCalibration();
+  const vision::StereoCalibration c = roomCalibration();
   const double left_s = fixture.period_s * index;
   const double right_s = left_s + fixture.right_lag_s;
   const auto images = TexturedRoom().renderPair(roomDrive(left_s), roomDrive(right_s), c);
@@ -105,7 +105,7 @@ void writeImu(rosbag::Bag& bag, double time_s) {
 
 }  // namespace
 
-sensor_msgs::CameraInfo cameraInfo(const vo::StereoCalibration& c, bool right) {
+sensor_msgs::CameraInfo cameraInfo(const vision::StereoCalibration& c, bool right) {
   sensor_msgs::CameraInfo info;
   info.header.frame_id = frames::kLeftOptical;
   info.width = static_cast<unsigned>(c.width);

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "stereo_nav/vo/stereo_calibration.h"
+#include "stereo_nav/vision/stereo_calibration.h"
 
 namespace stereo_nav::test {
 
@@ -22,6 +22,6 @@ struct FixtureBag {
 void writeFixtureBag(const std::string& path, const FixtureBag& fixture);
 
 /// camera_info of one camera of an ideal, rectified pair.
-sensor_msgs::CameraInfo cameraInfo(const vo::StereoCalibration& calibration, bool right);
+sensor_msgs::CameraInfo cameraInfo(const vision::StereoCalibration& calibration, bool right);
 
 }  // namespace stereo_nav::test

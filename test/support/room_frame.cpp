@@ -4,7 +4,7 @@
 
 #include <boost/make_shared.hpp>
 
-#include "stereo_nav/ros_io/topics.h"
+#include "stereo_nav/ros/topics.h"
 #include "support/textured_room.h"
 
 namespace stereo_nav::test {

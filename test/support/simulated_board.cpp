@@ -3,7 +3,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "stereo_nav/sim/image_sensor.h"
+#include "sim/image_sensor.h"
 
 namespace stereo_nav::test {
 namespace {

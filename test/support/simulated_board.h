@@ -5,8 +5,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "sim/camera.h"
 #include "stereo_nav/calibration/checkerboard.h"
-#include "stereo_nav/sim/camera.h"
 
 namespace stereo_nav::test {
 

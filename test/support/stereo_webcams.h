@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "sim/camera.h"
 #include "stereo_nav/calibration/checkerboard.h"
 #include "stereo_nav/calibration/stereo_rig.h"
-#include "stereo_nav/sim/camera.h"
 
 namespace stereo_nav::test {
 

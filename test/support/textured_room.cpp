@@ -90,7 +90,7 @@ cv::Mat TexturedRoom::render(const Eigen::Isometry3d& T_room_camera, double fx, 
 
 TexturedRoom::Pair TexturedRoom::renderPair(const Eigen::Isometry3d& T_room_left,
                                             const Eigen::Isometry3d& T_room_left_at_right_time,
-                                            const vo::StereoCalibration& c) const {
+                                            const vision::StereoCalibration& c) const {
   const cv::Size size(c.width, c.height);
   const Eigen::Isometry3d T_room_right =
       T_room_left_at_right_time * Eigen::Translation3d(c.baseline_m, 0.0, 0.0);
@@ -98,7 +98,8 @@ TexturedRoom::Pair TexturedRoom::renderPair(const Eigen::Isometry3d& T_room_left
           render(T_room_right, c.fx, c.fy, c.right_cx, c.cy, size)};
 }
 
-cv::Mat TexturedRoom::disparity(const Eigen::Isometry3d& T_room_left, const vo::StereoCalibration& c) const {
+cv::Mat TexturedRoom::disparity(const Eigen::Isometry3d& T_room_left,
+                                const vision::StereoCalibration& c) const {
   cv::Mat map(c.height, c.width, CV_32FC1);
   for (int row = 0; row < c.height; ++row) {
     for (int column = 0; column < c.width; ++column) {
@@ -111,8 +112,8 @@ cv::Mat TexturedRoom::disparity(const Eigen::Isometry3d& T_room_left, const vo::
   return map;
 }
 
-vo::StereoCalibration roomCalibration() {
-  vo::StereoCalibration calibration;
+vision::StereoCalibration roomCalibration() {
+  vision::StereoCalibration calibration;
   calibration.fx = calibration.fy = 280.0;
   calibration.cx = calibration.right_cx = 159.5;
   calibration.cy = 119.5;

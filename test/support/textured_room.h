@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "stereo_nav/vo/stereo_calibration.h"
+#include "stereo_nav/vision/stereo_calibration.h"
 
 namespace stereo_nav::test {
 
@@ -28,14 +28,14 @@ class TexturedRoom {
   };
   /// A rectified pair, left camera at `T_room_left`, right camera at its own pose's baseline.
   Pair renderPair(const Eigen::Isometry3d& T_room_left, const Eigen::Isometry3d& T_room_left_at_right_time,
-                  const vo::StereoCalibration& calibration) const;
+                  const vision::StereoCalibration& calibration) const;
 
   /// Exact disparity of the left image, CV_32FC1, px.
-  cv::Mat disparity(const Eigen::Isometry3d& T_room_left, const vo::StereoCalibration& calibration) const;
+  cv::Mat disparity(const Eigen::Isometry3d& T_room_left, const vision::StereoCalibration& calibration) const;
 };
 
 /// 320 x 240, 60 degrees of view, 0.12 m baseline: the thesis' rig, rectified.
-vo::StereoCalibration roomCalibration();
+vision::StereoCalibration roomCalibration();
 
 /// Poses of the left camera in the room, one each `period_s`: drives forward at 0.4 m/s and turns by 10
 /// degrees/s.

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 
-#include "stereo_nav/ros_io/bag_file.h"
-#include "stereo_nav/ros_io/topics.h"
-#include "stereo_nav/sim/image_sensor.h"
-#include "stereo_nav/sim/random.h"
-#include "stereo_nav/sim/renderer.h"
-#include "stereo_nav/sim/scenario.h"
-#include "stereo_nav/vo/lie.h"
+#include "ros/bag_file.h"
+#include "sim/image_sensor.h"
+#include "sim/random.h"
+#include "sim/renderer.h"
+#include "sim/scenario.h"
+#include "stereo_nav/core/lie.h"
+#include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::test {
 namespace {
@@ -28,8 +28,8 @@ Eigen::Isometry3d poseAt(const Wiggle& wiggle, double time_s) {
       kDegree *
       wiggle.amplitude_deg.cwiseProduct((2.0 * M_PI * time_s * wiggle.frequency_hz).array().sin().matrix());
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = R_world_camera * vo::expRotation({0, angle.y(), 0}) * vo::expRotation({angle.x(), 0, 0}) *
-                  vo::expRotation({0, 0, angle.z()});
+  pose.linear() = R_world_camera * expRotation({0, angle.y(), 0}) * expRotation({angle.x(), 0, 0}) *
+                  expRotation({0, 0, angle.z()});
   // Hands do not turn about the lens.
   pose.translation() = Eigen::Vector3d(0.0, 0.0, 0.5) + pose.linear() * Eigen::Vector3d(0.03, 0.02, 0.15);
   return pose;
@@ -107,7 +107,7 @@ void writeImu(ros_io::BagFile& bag, const Wiggle& wiggle) {
     } else {
       const Eigen::Matrix3d before = poseAt(wiggle, time_s - kStep_s).linear(),
                             after = poseAt(wiggle, time_s + kStep_s).linear();
-      const Eigen::Vector3d camera_rate = vo::logRotation(before.transpose() * after) / (2.0 * kStep_s);
+      const Eigen::Vector3d camera_rate = logRotation(before.transpose() * after) / (2.0 * kStep_s);
       Eigen::Vector3d rate = wiggle.R_camera_imu.transpose() * camera_rate + bias_rad_s;
       for (int axis = 0; axis < 3; ++axis) rate(axis) += kNoise_rad_s * random.normal();
       imu.angular_velocity.x = rate.x();

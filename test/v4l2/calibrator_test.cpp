@@ -24,12 +24,12 @@ TEST(Calibrator, CommitSavesTheGeometryOfTheCameras) {
   if (!std::filesystem::exists(calibrator)) GTEST_SKIP() << calibrator << " is not installed";
   const CheckerboardRig rig;
   constexpr auto kPeriod = 1000ms;
-  capture::Feeder left_feeder("/dev/video10", V4L2_PIX_FMT_MJPEG, rig.width, rig.height);
-  capture::Feeder right_feeder("/dev/video11", V4L2_PIX_FMT_MJPEG, rig.width, rig.height);
+  camera::Feeder left_feeder("/dev/video10", V4L2_PIX_FMT_MJPEG, rig.width, rig.height);
+  camera::Feeder right_feeder("/dev/video11", V4L2_PIX_FMT_MJPEG, rig.width, rig.height);
   const auto first = std::chrono::steady_clock::now() + 100ms;
   const auto viewFrom = [&rig](double camera_x_m) {
     return
-        [&rig, camera_x_m](std::uint32_t counter) { return capture::jpegOf(rig.draw(counter, camera_x_m)); };
+        [&rig, camera_x_m](std::uint32_t counter) { return camera::jpegOf(rig.draw(counter, camera_x_m)); };
   };
   left_feeder.start(first, kPeriod, viewFrom(0.0));
   right_feeder.start(first + 10ms, kPeriod, viewFrom(rig.baseline_m));

@@ -22,7 +22,7 @@
 #include <thread>
 #include <vector>
 
-namespace stereo_nav::capture {
+namespace stereo_nav::camera {
 
 /// A counter drawn as sixteen black or white fields, legible after JPEG.
 inline cv::Mat drawCounter(int width, int height, std::uint32_t counter) {
@@ -143,4 +143,4 @@ inline std::vector<std::uint8_t> jpegOf(const cv::Mat& image) {
   return bytes;
 }
 
-}  // namespace stereo_nav::capture
+}  // namespace stereo_nav::camera

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <memory>
 
-#include "unit/capture/stereo_rig.h"
+#include "unit/sensors/camera/stereo_rig.h"
 #include "v4l2/feeder.h"
 
-namespace stereo_nav::capture {
+namespace stereo_nav::camera {
 namespace {
 
 using namespace std::chrono_literals;
@@ -51,7 +51,7 @@ class Loopback : public testing::Test {
     config.right.name = "right";
     config.right.device = kRight;
     config.max_skew_s = 0.048;
-    rig_ = std::make_unique<StereoRig>(linuxKernel(), DeviceFinder(linuxKernel()));
+    rig_ = std::make_unique<StereoRig>(camera::linuxKernel(), DeviceFinder(camera::linuxKernel()));
     rig_->start(config);
   }
 
@@ -137,4 +137,4 @@ TEST_F(Loopback, ACameraThatStopsSendingComesBackWithItsFrames) {
 }
 
 }  // namespace
-}  // namespace stereo_nav::capture
+}  // namespace stereo_nav::camera

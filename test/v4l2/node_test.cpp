@@ -14,8 +14,8 @@
 #include <map>
 #include <memory>
 
+#include "sensors/camera/v4l2_device.h"
 #include "stereo_nav/StereoSync.h"
-#include "stereo_nav/capture/v4l2_device.h"
 #include "support/node_process.h"
 #include "v4l2/feeder.h"
 #include "v4l2/ros_probe.h"
@@ -54,10 +54,10 @@ std::string diagnosticsText(const Topic<diagnostic_msgs::DiagnosticArray>& topic
 TEST(StereoCaptureNode, PublishesMatchingPairsAndSavesTheCalibration) {
   constexpr auto kPeriod = 250ms;
   const auto source = [](std::uint32_t counter) {
-    return capture::jpegOf(capture::drawCounter(320, 240, counter));
+    return camera::jpegOf(camera::drawCounter(320, 240, counter));
   };
-  capture::Feeder left_feeder("/dev/video10", V4L2_PIX_FMT_MJPEG, 320, 240);
-  capture::Feeder right_feeder("/dev/video11", V4L2_PIX_FMT_MJPEG, 320, 240);
+  camera::Feeder left_feeder("/dev/video10", V4L2_PIX_FMT_MJPEG, 320, 240);
+  camera::Feeder right_feeder("/dev/video11", V4L2_PIX_FMT_MJPEG, 320, 240);
   const auto first = std::chrono::steady_clock::now() + 100ms;
   left_feeder.start(first, kPeriod, source);
   right_feeder.start(first + 10ms, kPeriod, source);
@@ -88,8 +88,8 @@ TEST(StereoCaptureNode, PublishesMatchingPairsAndSavesTheCalibration) {
     const auto partner = lefts.find(image->header.stamp);
     const auto pair = syncs.find(image->header.stamp);
     if (partner == lefts.end() || pair == syncs.end()) continue;  // lost on the way here while subscribing
-    const auto counter = capture::readCounter(cv_bridge::toCvCopy(partner->second, "mono8")->image);
-    EXPECT_EQ(counter, capture::readCounter(cv_bridge::toCvCopy(image, "mono8")->image));
+    const auto counter = camera::readCounter(cv_bridge::toCvCopy(partner->second, "mono8")->image);
+    EXPECT_EQ(counter, camera::readCounter(cv_bridge::toCvCopy(image, "mono8")->image));
     EXPECT_NEAR(pair->second->skew_s, 0.010, 1e-5);
     EXPECT_NEAR((pair->second->right_stamp - pair->second->left_stamp).toSec(), 0.010, 1e-5);
     // The feeder's time of the image, not the time of its arrival; only the clock's offset is measured.
@@ -122,8 +122,8 @@ TEST(StereoCaptureNode, PublishesMatchingPairsAndSavesTheCalibration) {
 }
 
 std::int32_t controlOf(const std::string& path, const std::string& name) {
-  capture::V4l2Device device(capture::linuxKernel(), path);
-  return device.getControl(*capture::findControl(device.controls(), name));
+  camera::V4l2Device device(camera::linuxKernel(), path);
+  return device.getControl(*camera::findControl(device.controls(), name));
 }
 
 TEST(StereoCaptureNode, ReconfiguresAndSurvivesADisconnection) {
@@ -147,8 +147,8 @@ TEST(StereoCaptureNode, ReconfiguresAndSurvivesADisconnection) {
   EXPECT_TRUE(comesTrue([] { return controlOf("/dev/video1", "gain") == 77; }));
 
   {
-    capture::V4l2Device device(capture::linuxKernel(), "/dev/video1");
-    const auto* disconnect = capture::findControl(device.controls(), "disconnect");
+    camera::V4l2Device device(camera::linuxKernel(), "/dev/video1");
+    const auto* disconnect = camera::findControl(device.controls(), "disconnect");
     ASSERT_NE(disconnect, nullptr);
     device.setControl(*disconnect, 1);
   }

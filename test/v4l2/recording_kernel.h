@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "stereo_nav/capture/kernel.h"
+#include "sensors/camera/kernel.h"
 
-namespace stereo_nav::capture {
+namespace stereo_nav::camera {
 
 /// The real system calls, with a record of every buffer that a driver handed out.
 class RecordingKernel : public Kernel {
@@ -22,14 +22,14 @@ class RecordingKernel : public Kernel {
   };
 
   int open(const std::string& path) override {
-    const int descriptor = linuxKernel().open(path);
+    const int descriptor = camera::linuxKernel().open(path);
     const std::lock_guard<std::mutex> lock(mutex_);
     paths_[descriptor] = path;
     return descriptor;
   }
-  void close(int descriptor) override { linuxKernel().close(descriptor); }
+  void close(int descriptor) override { camera::linuxKernel().close(descriptor); }
   int ioctl(int descriptor, unsigned long request, void* argument) override {
-    const int result = linuxKernel().ioctl(descriptor, request, argument);
+    const int result = camera::linuxKernel().ioctl(descriptor, request, argument);
     if (request == VIDIOC_DQBUF && result == 0) {
       const auto& buffer = *static_cast<const v4l2_buffer*>(argument);
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -39,12 +39,14 @@ class RecordingKernel : public Kernel {
     return result;
   }
   void* map(int descriptor, std::size_t length, std::int64_t offset) override {
-    return linuxKernel().map(descriptor, length, offset);
+    return camera::linuxKernel().map(descriptor, length, offset);
   }
-  void unmap(void* address, std::size_t length) override { linuxKernel().unmap(address, length); }
-  Ready wait(int descriptor, int timeout_ms) override { return linuxKernel().wait(descriptor, timeout_ms); }
-  std::int64_t monotonicNow() override { return linuxKernel().monotonicNow(); }
-  std::int64_t realtimeNow() override { return linuxKernel().realtimeNow(); }
+  void unmap(void* address, std::size_t length) override { camera::linuxKernel().unmap(address, length); }
+  Ready wait(int descriptor, int timeout_ms) override {
+    return camera::linuxKernel().wait(descriptor, timeout_ms);
+  }
+  std::int64_t monotonicNow() override { return camera::linuxKernel().monotonicNow(); }
+  std::int64_t realtimeNow() override { return camera::linuxKernel().realtimeNow(); }
 
   std::vector<Buffer> buffersOf(const std::string& path) {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -57,4 +59,4 @@ class RecordingKernel : public Kernel {
   std::map<std::string, std::vector<Buffer>> buffers_;
 };
 
-}  // namespace stereo_nav::capture
+}  // namespace stereo_nav::camera

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "stereo_nav/capture/clock_mapping.h"
-#include "stereo_nav/capture/kernel.h"
+#include "sensors/camera/clock_mapping.h"
+#include "sensors/camera/kernel.h"
 
 namespace stereo_nav::test {
 
@@ -43,8 +43,8 @@ inline bool comesTrue(const std::function<bool()>& condition,
 
 /// What ROS time is ahead of the monotonic clock; a reading that was interrupted does not count.
 inline double rosMinusMonotonic_s() {
-  const capture::ClockMapping mapping([] { return capture::linuxKernel().monotonicNow(); },
-                                      [] { return capture::linuxKernel().realtimeNow(); });
+  const camera::ClockMapping mapping([] { return camera::linuxKernel().monotonicNow(); },
+                                     [] { return camera::linuxKernel().realtimeNow(); });
   return 1e-9 * static_cast<double>(mapping.offset_ns());
 }
 

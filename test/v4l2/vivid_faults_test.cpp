@@ -13,7 +13,7 @@
 
 #include "v4l2/vivid_fixture.h"
 
-namespace stereo_nav::capture {
+namespace stereo_nav::camera {
 namespace {
 
 std::size_t openDescriptors() {
@@ -101,4 +101,4 @@ TEST_F(Vivid, FiftyReconnectionsLeaveNothingBehind) {
 }
 
 }  // namespace
-}  // namespace stereo_nav::capture
+}  // namespace stereo_nav::camera

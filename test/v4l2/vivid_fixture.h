@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "stereo_nav/capture/v4l2_device.h"
-#include "unit/capture/stereo_rig.h"
+#include "sensors/camera/v4l2_device.h"
+#include "unit/sensors/camera/stereo_rig.h"
 #include "v4l2/recording_kernel.h"
 
-namespace stereo_nav::capture {
+namespace stereo_nav::camera {
 
 using Clock = std::chrono::steady_clock;
 
@@ -40,15 +40,15 @@ inline StereoConfig configOf(int width, int height) {
 
 /// Sets a control from outside, as v4l2-ctl would.
 inline std::int32_t setControl(const std::string& path, const std::string& name, std::int32_t value) {
-  V4l2Device device(linuxKernel(), path);
-  const Control* control = findControl(device.controls(), name);
+  V4l2Device device(camera::linuxKernel(), path);
+  const Control* control = camera::findControl(device.controls(), name);
   if (control == nullptr) throw std::runtime_error(path + " has no control " + name);
   return device.setControl(*control, value);
 }
 
 inline std::int32_t getControl(const std::string& path, const std::string& name) {
-  V4l2Device device(linuxKernel(), path);
-  return device.getControl(*findControl(device.controls(), name));
+  V4l2Device device(camera::linuxKernel(), path);
+  return device.getControl(*camera::findControl(device.controls(), name));
 }
 
 /// A button whose effect makes the device fail at once: reading it back is not possible.
@@ -132,4 +132,4 @@ class Vivid : public testing::Test {
   StereoRig rig_{kernel_, DeviceFinder(kernel_)};
 };
 
-}  // namespace stereo_nav::capture
+}  // namespace stereo_nav::camera

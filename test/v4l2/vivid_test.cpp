@@ -7,7 +7,7 @@
 
 #include "v4l2/vivid_fixture.h"
 
-namespace stereo_nav::capture {
+namespace stereo_nav::camera {
 namespace {
 
 class VividSize : public Vivid, public testing::WithParamInterface<std::pair<int, int>> {};
@@ -93,15 +93,15 @@ TEST_F(Vivid, MatchExposureLetsTheRightGainFollow) {
 }
 
 TEST_F(Vivid, FinderSeesTheCamerasByTheirPorts) {
-  const auto devices = DeviceFinder(linuxKernel()).list();
+  const auto devices = DeviceFinder(camera::linuxKernel()).list();
   const auto found = std::find_if(devices.begin(), devices.end(), [](const FoundDevice& device) {
     return device.bus_info == "platform:vivid-001";
   });
   ASSERT_NE(found, devices.end());
   EXPECT_EQ(found->path, kRight);
-  V4l2Device device(linuxKernel(), found->path);
+  V4l2Device device(camera::linuxKernel(), found->path);
   EXPECT_FALSE(device.offeredFormats().empty());
 }
 
 }  // namespace
-}  // namespace stereo_nav::capture
+}  // namespace stereo_nav::camera

@@ -14,8 +14,8 @@
 #include <map>
 #include <mutex>
 
-#include "stereo_nav/ros_io/recording.h"
-#include "stereo_nav/ros_io/topics.h"
+#include "stereo_nav/ros/recording.h"
+#include "stereo_nav/ros/topics.h"
 #include "support/node_process.h"
 #include "v4l2/feeder.h"
 #include "v4l2/ros_probe.h"
@@ -60,8 +60,8 @@ TEST(WholeChain, OdometryFromTheCamerasFollowsTheDrive) {
   const int width = pairs[0].left.cols, height = pairs[0].left.rows;
 
   Drive drive(kFirst);
-  capture::Feeder left_feeder("/dev/video10", V4L2_PIX_FMT_GREY, width, height);
-  capture::Feeder right_feeder("/dev/video11", V4L2_PIX_FMT_GREY, width, height);
+  camera::Feeder left_feeder("/dev/video10", V4L2_PIX_FMT_GREY, width, height);
+  camera::Feeder right_feeder("/dev/video11", V4L2_PIX_FMT_GREY, width, height);
   const auto bytesOf = [](const cv::Mat& image) {
     return std::vector<std::uint8_t>(image.datastart, image.dataend);
   };

@@ -6,7 +6,7 @@
 
 #include "stereo_nav/calibration/checkerboard.h"
 #include "stereo_nav/calibration/stereo_rig.h"
-#include "stereo_nav/vo/lie.h"
+#include "stereo_nav/core/lie.h"
 
 namespace stereo_nav::calibration {
 
@@ -15,14 +15,14 @@ struct BoardPose {
   /// Board frame (see Checkerboard::corners()) -> rectified left optical frame.
   Eigen::Isometry3d T_camera_board = Eigen::Isometry3d::Identity();
   /// Of the left perturbation of T_camera_board (m, rad), from the residuals of this view.
-  vo::Matrix6d covariance = vo::Matrix6d::Zero();
+  Matrix6d covariance = Matrix6d::Zero();
   std::vector<Eigen::Vector4d> residual_px;  ///< per corner, observed - predicted: left x, y, right x, y
 };
 
 /// Pose that fits all corners in both rectified images best (Gauss-Newton on the reprojection error, from
 /// the rigid alignment of the triangulated corners; Umeyama, PAMI 1991). Nothing where a corner has no
 /// positive disparity or the fit fails: left and right swapped, or a calibration of another rig.
-std::optional<BoardPose> estimateBoardPose(const vo::StereoCalibration& calibration,
+std::optional<BoardPose> estimateBoardPose(const vision::StereoCalibration& calibration,
                                            const Checkerboard& board,
                                            const std::vector<Eigen::Vector2d>& left_rect_px,
                                            const std::vector<Eigen::Vector2d>& right_rect_px);

@@ -53,7 +53,7 @@ struct CalibrationCheck {
   bool good() const;
 
   /// Standard deviation of a depth from one disparity with the noise measured: z^2 sigma_d / (f b).
-  double depthNoise_m(const vo::StereoCalibration& calibration, double depth_m) const;
+  double depthNoise_m(const vision::StereoCalibration& calibration, double depth_m) const;
 };
 
 /// Limits of the verdict. The reprojection and epipolar ones are twice what camera_calibration's tutorials

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "stereo_nav/vo/stereo_calibration.h"
+#include "stereo_nav/vision/stereo_calibration.h"
 
 namespace stereo_nav::calibration {
 
@@ -29,7 +29,7 @@ struct CameraModel {
 struct StereoRig {
   CameraModel left;
   CameraModel right;
-  vo::StereoCalibration rectified;  ///< what both P say
+  vision::StereoCalibration rectified;  ///< what both P say
 };
 
 /// Angle of view of the rectified image, rad.

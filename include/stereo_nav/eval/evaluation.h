@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "stereo_nav/core/trajectory.h"
 #include "stereo_nav/eval/timing.h"
-#include "stereo_nav/eval/trajectory.h"
 
 namespace stereo_nav::eval {
 
@@ -77,7 +77,7 @@ struct Evaluation {
   std::vector<FrameErrors> frames;
 };
 
-/// Throws EvaluationError when there is no frame, or when there is ground truth but fewer than three frames
+/// Throws InputError when there is no frame, or when there is ground truth but fewer than three frames
 /// find a pose in it; the message names both intervals of time.
 Evaluation evaluate(const EvaluationInput& input);
 

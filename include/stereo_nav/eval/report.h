@@ -10,7 +10,7 @@ namespace stereo_nav::eval {
 
 /// Writes `report.html` (one file, pictures inside) and the same pictures as `*.svg` beside it into
 /// `directory`, which must exist. Returns a one-line warning when pictures are missing from it, e.g. because
-/// gnuplot is not installed; the figures are written all the same. Throws EvaluationError when the directory
+/// gnuplot is not installed; the figures are written all the same. Throws InputError when the directory
 /// cannot be written.
 ///
 /// Pictures are drawn by the program `gnuplot` (package gnuplot-nox) to SVG: it needs no display and no

@@ -16,7 +16,7 @@ struct RectifiedCorners {
   std::vector<Eigen::Vector2d> left, right;
 };
 
-RectifiedCorners project(const vo::StereoCalibration& calibration, const Checkerboard& board,
+RectifiedCorners project(const vision::StereoCalibration& calibration, const Checkerboard& board,
                          const Eigen::Isometry3d& T_camera_board) {
   RectifiedCorners corners;
   for (const Eigen::Vector3d& corner : board.corners()) {
@@ -57,7 +57,7 @@ TEST_F(BoardPoseTest, TheCovarianceIsThatOfTheErrors) {
     }
     const auto pose = estimateBoardPose(rig_.rectified, board_, noisy.left, noisy.right);
     ASSERT_TRUE(pose);
-    const vo::Vector6d error = vo::logMotion(pose->T_camera_board * truth.inverse());
+    const Vector6d error = logMotion(pose->T_camera_board * truth.inverse());
     normalised += error.dot(pose->covariance.inverse() * error) / kRuns;
   }
   EXPECT_NEAR(normalised, 6.0, 0.8);  // chi square of six degrees of freedom, mean of 300

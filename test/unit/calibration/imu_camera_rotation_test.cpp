@@ -1,11 +1,11 @@
-#include "stereo_nav/calibration/imu_camera_rotation.h"
+#include "calibration/imu_camera_rotation.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <random>
 
-#include "stereo_nav/vo/lie.h"
+#include "stereo_nav/core/lie.h"
 
 namespace stereo_nav::calibration {
 namespace {
@@ -21,14 +21,13 @@ struct Wiggle {
   Eigen::Matrix3d orientation(double time_s) const {
     const Eigen::Vector3d angle =
         (kDegree * amplitude_deg).cwiseProduct((2.0 * M_PI * time_s * frequency_hz).array().sin().matrix());
-    return vo::expRotation(Eigen::Vector3d(angle.x(), 0, 0)) *
-           vo::expRotation(Eigen::Vector3d(0, angle.y(), 0)) *
-           vo::expRotation(Eigen::Vector3d(0, 0, angle.z()));
+    return expRotation(Eigen::Vector3d(angle.x(), 0, 0)) * expRotation(Eigen::Vector3d(0, angle.y(), 0)) *
+           expRotation(Eigen::Vector3d(0, 0, angle.z()));
   }
   /// Of the camera in its own frame, rad/s.
   Eigen::Vector3d rate(double time_s) const {
     constexpr double kStep_s = 1e-4;
-    return vo::logRotation(orientation(time_s - kStep_s).transpose() * orientation(time_s + kStep_s)) /
+    return logRotation(orientation(time_s - kStep_s).transpose() * orientation(time_s + kStep_s)) /
            (2.0 * kStep_s);
   }
 };
@@ -49,7 +48,7 @@ const Eigen::Matrix3d kMounting =
 
 struct Data {
   std::vector<CameraOrientation> camera;
-  std::vector<vo::ImuSample> imu;
+  std::vector<ImuSample> imu;
 };
 
 Data simulate(const Wiggle& wiggle, const Faults& faults) {
@@ -64,10 +63,10 @@ Data simulate(const Wiggle& wiggle, const Faults& faults) {
   for (double t = 0.5; t < wiggle.duration_s; t += 1.0 / 30.0) {
     double sigma_rad = faults.camera_noise_deg * kDegree;
     if (share(random) < faults.outlier_share) sigma_rad = 0.3;
-    data.camera.push_back({t, wiggle.orientation(t) * vo::expRotation(noise(sigma_rad)), 0});
+    data.camera.push_back({t, wiggle.orientation(t) * expRotation(noise(sigma_rad)), 0});
   }
   for (double t = 0.0; t < wiggle.duration_s + 1.0; t += 0.01) {
-    vo::ImuSample sample;
+    ImuSample sample;
     sample.time_s = t + faults.imu_offset_s;
     sample.angular_velocity =
         kMounting.transpose() * wiggle.rate(t) + faults.bias_rad_s + noise(faults.gyro_noise_rad_s);
@@ -78,7 +77,7 @@ Data simulate(const Wiggle& wiggle, const Faults& faults) {
 
 /// The same motion as a module tells it that sends attitudes.
 void useAttitudes(const Wiggle& wiggle, Data& data, double offset_s) {
-  for (vo::ImuSample& sample : data.imu) {
+  for (ImuSample& sample : data.imu) {
     const Eigen::Matrix3d R_world_imu = wiggle.orientation(sample.time_s - offset_s) * kMounting;
     sample.q_world_imu = Eigen::Quaterniond(R_world_imu);
     sample.angular_velocity.reset();
@@ -86,7 +85,7 @@ void useAttitudes(const Wiggle& wiggle, Data& data, double offset_s) {
 }
 
 Eigen::Vector3d errorOf(const ImuCameraRotation& result) {
-  return vo::logRotation(result.R_camera_imu * kMounting.transpose());
+  return logRotation(result.R_camera_imu * kMounting.transpose());
 }
 
 TEST(ImuCameraRotation, AKnownMountingIsFoundFromRates) {
@@ -152,7 +151,7 @@ TEST(ImuCameraRotation, RunsOfTheVisionAreNotJoined) {
     data.camera[i].run = static_cast<int>(i / 100);
     // Every run counts from an orientation of its own.
     data.camera[i].R_start_camera =
-        vo::expRotation(Eigen::Vector3d(0.3 * data.camera[i].run, 1.0, 0.0)) * data.camera[i].R_start_camera;
+        expRotation(Eigen::Vector3d(0.3 * data.camera[i].run, 1.0, 0.0)) * data.camera[i].R_start_camera;
   }
   const auto result = calibrateImuCameraRotation(data.camera, data.imu);
   ASSERT_TRUE(result.usable()) << result.refusal;
@@ -188,7 +187,7 @@ TEST(ImuCameraRotation, NoMotionIsRefused) {
 
 TEST(ImuCameraRotation, MirroredAxesAreRefused) {
   Data data = simulate({}, {});
-  for (vo::ImuSample& sample : data.imu) sample.angular_velocity->y() *= -1.0;
+  for (ImuSample& sample : data.imu) sample.angular_velocity->y() *= -1.0;
   expectRefusal(data, "mirrored");
 }
 
@@ -209,7 +208,7 @@ TEST(ImuCameraRotation, PoorDataAreRefused) {
   expectRefusal(lost, "the cameras saw only 6 turns");
   expectRefusal({}, "no IMU samples");
   Data other_clock = simulate({}, {});
-  for (vo::ImuSample& sample : other_clock.imu) sample.time_s += 1000.0;
+  for (ImuSample& sample : other_clock.imu) sample.time_s += 1000.0;
   expectRefusal(other_clock, "stamped by one clock");
 }
 

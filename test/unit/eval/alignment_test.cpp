@@ -1,7 +1,7 @@
-#include "stereo_nav/eval/alignment.h"
+#include "eval/alignment.h"
 
-#include "eval_test_support.h"
-#include "stereo_nav/eval/metrics.h"
+#include "eval/metrics.h"
+#include "support/trajectories.h"
 
 namespace stereo_nav::eval {
 namespace {

@@ -1,6 +1,7 @@
 #include "stereo_nav/eval/evaluation.h"
 
-#include "eval_test_support.h"
+#include "stereo_nav/core/input_error.h"
+#include "support/trajectories.h"
 
 namespace stereo_nav::eval {
 namespace {
@@ -124,10 +125,10 @@ TEST(Evaluation, refusesGroundTruthOfAnotherTime) {
   auto input = straightDrive(1.0);
   for (auto& truth : input.ground_truth) truth.time_s += 1e6;
   EXPECT_EQ(
-      messageOf<EvaluationError>([&input] { evaluate(input); }),
+      messageOf<InputError>([&input] { evaluate(input); }),
       "only 0 of 13 frames have ground truth: the frames are from 100.000 to 112.000 s, the ground truth "
       "from 1000100.000 to 1000112.000 s; give the ground truth of this recording, in the same clock");
-  EXPECT_THROW(evaluate(EvaluationInput{}), EvaluationError);
+  EXPECT_THROW(evaluate(EvaluationInput{}), InputError);
 }
 
 TEST(EvaluationSummary, fileHasFixedKeysAndRoundTripNumbers) {

@@ -1,6 +1,6 @@
-#include "stereo_nav/eval/metrics.h"
+#include "eval/metrics.h"
 
-#include "eval_test_support.h"
+#include "support/trajectories.h"
 
 namespace stereo_nav::eval {
 namespace {

@@ -1,9 +1,9 @@
 // The check figures of the real recordings, which pin the readers and the path length.
 #include <cstdlib>
 
-#include "eval_test_support.h"
+#include "stereo_nav/core/trajectory.h"
 #include "stereo_nav/eval/evaluation.h"
-#include "stereo_nav/eval/trajectory.h"
+#include "support/trajectories.h"
 
 namespace stereo_nav::eval {
 namespace {

@@ -2,7 +2,8 @@
 
 #include <cstdlib>
 
-#include "eval_test_support.h"
+#include "stereo_nav/core/input_error.h"
+#include "support/trajectories.h"
 
 namespace stereo_nav::eval {
 namespace {
@@ -105,7 +106,7 @@ TEST(Report, anUnwritableFolderIsAnError) {
   const TemporaryFolder folder;
   const auto input = circle(false);
   folder.write("file", "");
-  EXPECT_THROW(writeReport(folder / "file", evaluate(input), input, summariseTiming({})), EvaluationError);
+  EXPECT_THROW(writeReport(folder / "file", evaluate(input), input, summariseTiming({})), InputError);
 }
 
 }  // namespace

@@ -4,16 +4,16 @@
 #include <boost/any.hpp>
 #include <map>
 
+#include "nodes/imu_bridge/imu_bridge_node.h"
+#include "nodes/visual_odometry/visual_odometry_params.h"
+#include "sensors/camera/capture_params.h"
 #include "stereo_nav/ImuBridgeConfig.h"
 #include "stereo_nav/StereoCaptureConfig.h"
 #include "stereo_nav/UncertaintyConfig.h"
 #include "stereo_nav/VisualOdometryConfig.h"
-#include "stereo_nav/capture/capture_params.h"
-#include "stereo_nav/nodes/imu_bridge_node.h"
-#include "stereo_nav/nodes/visual_odometry_params.h"
-#include "stereo_nav/params/parameters.h"
+#include "stereo_nav/core/parameters.h"
 
-namespace stereo_nav::capture {
+namespace stereo_nav::camera {
 namespace {
 
 struct Number {
@@ -77,12 +77,12 @@ TEST(Reconfigure, StereoCaptureAgreesWithTheParameters) {
 }
 
 TEST(Reconfigure, ImuBridgeAgreesWithTheParameters) {
-  expectAgreement<ImuBridgeConfig, nodes::ImuBridgeParams>(4);
+  expectAgreement<ImuBridgeConfig, ros_io::ImuBridgeParams>(4);
 }
 
 TEST(Reconfigure, VisualOdometryAgreesWithTheParameters) {
   expectAgreement<VisualOdometryConfig, nodes::VisualOdometryParams>(3);
-  expectAgreement<UncertaintyConfig, nodes::UncertaintyParams>(4);
+  expectAgreement<UncertaintyConfig, estimation::UncertaintyParams>(4);
 }
 
 TEST(CaptureParams, AreThoseOfTheConfigurationFile) {
@@ -99,4 +99,4 @@ TEST(CaptureParams, AreThoseOfTheConfigurationFile) {
 }
 
 }  // namespace
-}  // namespace stereo_nav::capture
+}  // namespace stereo_nav::camera

@@ -1,4 +1,4 @@
-#include "stereo_nav/nodes/debug_views.h"
+#include "nodes/visual_odometry/debug_views.h"
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -6,10 +6,10 @@
 namespace stereo_nav::nodes {
 namespace {
 
-using Fate = vo::FeatureReport::Fate;
+using Fate = odometry::FeatureReport::Fate;
 
-vo::FeatureReport feature(Fate fate, float x, float y, double depth_m) {
-  vo::FeatureReport report;
+odometry::FeatureReport feature(Fate fate, float x, float y, double depth_m) {
+  odometry::FeatureReport report;
   report.id = 7;
   report.fate = fate;
   report.current_px = report.previous_px = {x, y};
@@ -18,7 +18,7 @@ vo::FeatureReport feature(Fate fate, float x, float y, double depth_m) {
 }
 
 TEST(DebugViews, FeaturesHaveTheColourOfTheirFate) {
-  vo::FrameResult result;
+  odometry::FrameResult result;
   result.features = {feature(Fate::kInlier, 20, 20, 2.0), feature(Fate::kRejected, 60, 20, 3.0)};
   const cv::Mat view = drawFeatures(cv::Mat(40, 80, CV_8UC1, cv::Scalar(100)), result);
   ASSERT_EQ(view.type(), CV_8UC3);

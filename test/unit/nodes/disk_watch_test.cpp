@@ -1,4 +1,4 @@
-#include "stereo_nav/nodes/disk_watch.h"
+#include "nodes/recorder/disk_watch.h"
 
 #include <gtest/gtest.h>
 

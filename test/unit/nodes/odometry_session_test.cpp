@@ -1,12 +1,12 @@
-#include "stereo_nav/nodes/odometry_session.h"
+#include "nodes/visual_odometry/odometry_session.h"
 
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
 #include <functional>
 
-#include "stereo_nav/nodes/setup_checks.h"
-#include "stereo_nav/vo/base_pose.h"
+#include "core/base_pose.h"
+#include "ros/setup_checks.h"
 #include "support/fixture_bag.h"
 #include "support/room_frame.h"
 #include "support/textured_room.h"
@@ -36,9 +36,9 @@ class OdometrySessionTest : public testing::Test {
   }
 
   /// The frame of the drive at `drive_s`, stamped `kStart_s` later.
-  static Inbox::Work frameAt(double drive_s) {
+  static ros_io::Inbox::Work frameAt(double drive_s) {
     const test::RoomFrame frame = test::roomFrame(drive_s, ros::Time(kStart_s + drive_s));
-    Inbox::Work work;
+    ros_io::Inbox::Work work;
     work.frame.left = frame.left;
     work.frame.right = frame.right;
     work.frame.disparity = frame.disparity;
@@ -46,12 +46,12 @@ class OdometrySessionTest : public testing::Test {
     return work;
   }
 
-  SessionOutput process(const Inbox::Work& work, bool live = false) {
+  SessionOutput process(const ros_io::Inbox::Work& work, bool live = false) {
     return session_.process(work, setup_, live);
   }
 
   static Eigen::Isometry3d expectedPose(double drive_s) {
-    return vo::basePose(baseToCamera(), test::roomDrive(drive_s));
+    return basePose(baseToCamera(), test::roomDrive(drive_s));
   }
 
   static constexpr double kStart_s = 1000.0;
@@ -61,7 +61,7 @@ class OdometrySessionTest : public testing::Test {
                                                        {ros_io::frames::kImu, Eigen::Isometry3d::Identity()}};
   SensorSetup setup_;
   VisualOdometryParams params_;
-  OdometrySession session_{params_, vo::OdometryConfig(),
+  OdometrySession session_{params_, odometry::OdometryConfig(),
                            [this](const std::string& target, const std::string& source,
                                   std::string& error) -> std::optional<Eigen::Isometry3d> {
                              EXPECT_EQ(target, ros_io::frames::kBase);
@@ -75,13 +75,13 @@ class OdometrySessionTest : public testing::Test {
 TEST_F(OdometrySessionTest, FollowsTheDriveInTheBaseFrame) {
   SessionOutput output;
   for (int i = 0; i < 6; ++i) {
-    Inbox::Work work = frameAt(0.1 * i);
+    ros_io::Inbox::Work work = frameAt(0.1 * i);
     work.frame.rolling_shutter_s = 1e-4;  // an almost global one
     output = process(work);
     ASSERT_TRUE(output.processed);
   }
   EXPECT_EQ(output.images.readout_s, 1e-4);
-  EXPECT_EQ(output.result.state, vo::State::kTracking);
+  EXPECT_EQ(output.result.state, odometry::State::kTracking);
   EXPECT_LT((output.base.T_odom_base.translation() - expectedPose(0.5).translation()).norm(), kTolerance_m);
   EXPECT_NEAR(output.base.twist[0], 0.4, 0.1);
   EXPECT_TRUE(output.errors.empty());
@@ -91,7 +91,7 @@ TEST_F(OdometrySessionTest, FollowsTheDriveInTheBaseFrame) {
 
 TEST_F(OdometrySessionTest, RefusesARollingShutterThatCannotBe) {
   for (const double rolling_shutter_s : {30.0, -0.01, std::nan("")}) {
-    Inbox::Work work = frameAt(0.0);
+    ros_io::Inbox::Work work = frameAt(0.0);
     work.frame.rolling_shutter_s = rolling_shutter_s;
     const SessionOutput output = process(work);
     EXPECT_FALSE(output.processed);
@@ -126,7 +126,7 @@ TEST_F(OdometrySessionTest, WaitsForTheImusMountingBeforeItStartsButNotLater) {
   setup_.imu_frame = ros_io::frames::kImu;
   output = process(frameAt(0.1));
   EXPECT_TRUE(output.processed);
-  EXPECT_EQ(output.result.state, vo::State::kTracking);
+  EXPECT_EQ(output.result.state, odometry::State::kTracking);
   EXPECT_EQ(output.warnings.count("imu_transform"), 1u);
 
   // With the mounting known the odometry starts anew, the pose stays.
@@ -158,7 +158,7 @@ TEST_F(OdometrySessionTest, RefusesCamerasThatDoNotFitTogether) {
 }
 
 TEST_F(OdometrySessionTest, RefusesImagesOfAnotherFrameOrSizeThanTheirInfo) {
-  Inbox::Work work = frameAt(0.0);
+  ros_io::Inbox::Work work = frameAt(0.0);
   auto image = boost::make_shared<sensor_msgs::Image>(*work.frame.right);
   image->header.frame_id = "camera_right_optical";
   work.frame.right = image;
@@ -175,28 +175,28 @@ TEST_F(OdometrySessionTest, ALoopingBagStartsAgainAtTheOriginACorrectedClockDoes
   for (const bool live : {false, true}) {
     session_.reset();
     for (int i = 0; i < 4; ++i) process(frameAt(1.0 + 0.1 * i));
-    Inbox::Work again = frameAt(0.0);
+    ros_io::Inbox::Work again = frameAt(0.0);
     again.frame.after_jump = true;
     const SessionOutput jumped = process(again, live);
     ASSERT_TRUE(jumped.processed);
     ASSERT_EQ(jumped.announcements.size(), 1u);
     EXPECT_TRUE(contains(jumped.announcements[0], "jumped back"));
     EXPECT_EQ(jumped.base.T_odom_base.isApprox(Eigen::Isometry3d::Identity()), !live);
-    EXPECT_EQ(process(frameAt(0.1)).result.state, vo::State::kTracking);
+    EXPECT_EQ(process(frameAt(0.1)).result.state, odometry::State::kTracking);
   }
 }
 
 TEST_F(OdometrySessionTest, ResetAndSetPose) {
-  EXPECT_FALSE(session_.setPose(Eigen::Isometry3d::Identity(), vo::Matrix6d::Zero())) << "no odometry yet";
+  EXPECT_FALSE(session_.setPose(Eigen::Isometry3d::Identity(), Matrix6d::Zero())) << "no odometry yet";
   for (int i = 0; i < 3; ++i) process(frameAt(0.1 * i));
   session_.reset();
   EXPECT_TRUE(process(frameAt(0.3)).base.T_odom_base.isApprox(Eigen::Isometry3d::Identity()));
 
   Eigen::Isometry3d set = Eigen::Isometry3d::Identity();
   set.translation() << 10.0, 20.0, 0.0;
-  ASSERT_TRUE(session_.setPose(set, vo::Matrix6d::Zero()));
+  ASSERT_TRUE(session_.setPose(set, Matrix6d::Zero()));
   const SessionOutput output = process(frameAt(0.4));
-  EXPECT_EQ(output.result.state, vo::State::kTracking) << "tracking goes on";
+  EXPECT_EQ(output.result.state, odometry::State::kTracking) << "tracking goes on";
   const Eigen::Isometry3d motion = expectedPose(0.3).inverse() * expectedPose(0.4);
   EXPECT_LT((output.base.T_odom_base.translation() - (set * motion).translation()).norm(), kTolerance_m);
 }
@@ -214,7 +214,7 @@ TEST_F(OdometrySessionTest, ChangedCameraInfosStartAnewAtTheSamePose) {
 TEST_F(OdometrySessionTest, SaysWhenLeftAndRightAreSwapped) {
   std::string text;
   for (int i = 0; i < 5 && text.empty(); ++i) {
-    Inbox::Work work = frameAt(1.0 * i);
+    ros_io::Inbox::Work work = frameAt(1.0 * i);
     std::swap(work.frame.left, work.frame.right);
     text = process(work).warnings["camera_order"];
   }
@@ -222,7 +222,7 @@ TEST_F(OdometrySessionTest, SaysWhenLeftAndRightAreSwapped) {
 }
 
 TEST_F(OdometrySessionTest, AnImageThatCannotBeReadIsAProblemNotACrash) {
-  Inbox::Work work = frameAt(0.0);
+  ros_io::Inbox::Work work = frameAt(0.0);
   auto image = boost::make_shared<sensor_msgs::Image>(*work.frame.left);
   image->encoding = "64FC1";
   work.frame.left = image;
@@ -232,9 +232,9 @@ TEST_F(OdometrySessionTest, AnImageThatCannotBeReadIsAProblemNotACrash) {
 }
 
 TEST(SetupChecks, FrameIdsOfOldRecordings) {
-  EXPECT_EQ(withoutSlash("/camera"), "camera");
-  EXPECT_EQ(withoutSlash("camera"), "camera");
-  EXPECT_EQ(withoutSlash(""), "");
+  EXPECT_EQ(ros_io::withoutSlash("/camera"), "camera");
+  EXPECT_EQ(ros_io::withoutSlash("camera"), "camera");
+  EXPECT_EQ(ros_io::withoutSlash(""), "");
 }
 
 }  // namespace

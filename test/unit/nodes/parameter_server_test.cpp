@@ -1,11 +1,11 @@
-#include "stereo_nav/ros_io/parameter_server.h"
+#include "ros/parameter_server.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "stereo_nav/nodes/visual_odometry_params.h"
+#include "nodes/visual_odometry/visual_odometry_params.h"
 #include "support/command.h"
 
 namespace stereo_nav::ros_io {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "sim_test_support.h"
-#include "stereo_nav/vo/corner_detector.h"
+#include "vision/corner_detector.h"
 
 namespace stereo_nav::sim {
 namespace {
@@ -18,7 +18,7 @@ std::vector<double> featureDepths(const Simulation& simulation, const Scene& sce
       simulation.trajectory().pose(time_s) * simulation.scenario().rig.T_base_camera();
   std::vector<double> depths;
   const cv::Mat image = rectify(camera, simulation.image(Side::kLeft, pair));
-  for (const cv::Point2f& corner : vo::CornerDetector(vo::CornerDetectorParams()).detect(image)) {
+  for (const cv::Point2f& corner : vision::CornerDetector(vision::CornerDetectorParams()).detect(image)) {
     const Eigen::Vector3d ray((corner.x - camera.P(0, 2)) / camera.P(0, 0),
                               (corner.y - camera.P(1, 2)) / camera.P(1, 1), 1.0);
     depths.push_back(scene.castRay(T.translation(), T.linear() * ray, time_s));

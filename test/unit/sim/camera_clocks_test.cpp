@@ -1,4 +1,4 @@
-#include "stereo_nav/sim/camera_clocks.h"
+#include "sim/camera_clocks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "stereo_nav/sim/image_sensor.h"
+#include "sim/image_sensor.h"
 
 #include <gtest/gtest.h>
 

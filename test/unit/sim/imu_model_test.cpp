@@ -1,4 +1,4 @@
-#include "stereo_nav/sim/imu_model.h"
+#include "sim/imu_model.h"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(ImuModel, AccelerometerShowsGravityAtRestAndIntegratesToTheSpeed) {
   const auto samples = simulateImu(params, trajectory, 4.0, 1);
   EXPECT_NEAR((*samples.front().linear_acceleration - Eigen::Vector3d(0, 0, 9.81)).norm(), 0.0, 1e-6);
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  for (const vo::ImuSample& sample : samples) {
+  for (const ImuSample& sample : samples) {
     velocity +=
         (*sample.q_world_imu * *sample.linear_acceleration - Eigen::Vector3d(0, 0, 9.81)) / params.rate_hz;
   }
@@ -75,7 +75,7 @@ TEST(ImuModel, TheRawModuleHasBiasAndNoiseOfItsDensity) {
   const auto samples = simulateImu(params, standing(100.0), 100.0, 4);
   EXPECT_FALSE(samples[0].q_world_imu.has_value());
   double sum = 0.0, squares = 0.0;
-  for (const vo::ImuSample& sample : samples) {
+  for (const ImuSample& sample : samples) {
     const double rate_dps = sample.angular_velocity->z() * 180.0 / M_PI;
     sum += rate_dps;
     squares += rate_dps * rate_dps;

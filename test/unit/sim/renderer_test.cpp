@@ -1,4 +1,4 @@
-#include "stereo_nav/sim/renderer.h"
+#include "sim/renderer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "stereo_nav/sim/scenario.h"
+#include "sim/scenario.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "sim_test_support.h"
-#include "stereo_nav/params/parameters.h"
+#include "stereo_nav/core/parameters.h"
 
 namespace stereo_nav::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "stereo_nav/sim/simulation.h"
+#include "sim/simulation.h"
 
 namespace stereo_nav::sim {
 

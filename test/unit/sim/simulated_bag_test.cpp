@@ -1,4 +1,4 @@
-#include "../../../src/tools/simulated_bag.h"
+#include "tools/simulate/simulated_bag.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,9 @@
 #include <iterator>
 
 #include "sim_test_support.h"
-#include "stereo_nav/eval/trajectory.h"
-#include "stereo_nav/ros_io/recording.h"
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/core/trajectory.h"
+#include "stereo_nav/ros/recording.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -68,7 +69,7 @@ TEST(SimulatedBag, SaysWhatItCannotWrite) {
   const sim::Simulation simulation(shortScenario(), sim::thesisRig(), 1);
   EXPECT_THROW(writeSimulatedBag("/dev/null/x.bag", simulation, {0.1, 1, true, false},
                                  [](std::size_t, std::size_t) {}),
-               eval::EvaluationError);
+               InputError);
 }
 
 }  // namespace

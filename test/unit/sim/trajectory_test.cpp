@@ -1,9 +1,9 @@
-#include "stereo_nav/sim/trajectory.h"
+#include "sim/trajectory.h"
 
 #include <gtest/gtest.h>
 
+#include "sim/spline.h"
 #include "sim_test_support.h"
-#include "stereo_nav/sim/spline.h"
 
 namespace stereo_nav::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "import/derived_sequence.h"
+#include "tools/import_sequence/derived_sequence.h"
 
 #include <gtest/gtest.h>
 

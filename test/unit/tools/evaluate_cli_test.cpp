@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "stereo_nav/ros_io/topics.h"
+#include "stereo_nav/ros/topics.h"
 #include "support/command.h"
 #include "support/fixture_bag.h"
 

@@ -1,9 +1,10 @@
 #include <opencv2/videoio.hpp>
 
-#include "import/sequence.h"
 #include "import_test_support.h"
-#include "stereo_nav/eval/trajectory.h"
-#include "stereo_nav/ros_io/conversions.h"
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/core/trajectory.h"
+#include "stereo_nav/ros/conversions.h"
+#include "tools/import_sequence/sequence.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -153,7 +154,7 @@ TEST(FrameReader, refusesWhatItWouldMisread) {
   writeImage(folder, "alpha.png", cv::Mat(kHeight, kWidth, CV_8UC4, cv::Scalar::all(100)));
   folder.write("truncated.png", "\x89PNG\r\n");
   const auto messageFor = [&folder](const std::string& name) {
-    return messageOf<ros_io::InputError>([&] { readImageFiles({folder / name})->read(0); });
+    return messageOf<InputError>([&] { readImageFiles({folder / name})->read(0); });
   };
   EXPECT_NE(messageFor("alpha.png").find("CV_8UC4 are not supported"), std::string::npos);
   EXPECT_NE(messageFor("truncated.png").find("is damaged"), std::string::npos);

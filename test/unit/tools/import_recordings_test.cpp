@@ -3,10 +3,11 @@
 
 #include <cstdlib>
 
-#include "import/sequence_bag.h"
 #include "import_test_support.h"
 #include "stereo_nav/StereoSync.h"
-#include "stereo_nav/ros_io/conversions.h"
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/ros/conversions.h"
+#include "tools/import_sequence/sequence_bag.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -73,7 +74,7 @@ TEST_F(ImportRecordings, uniboRobot) {
 }
 
 TEST_F(ImportRecordings, zedStepsHasNoCalibration) {
-  EXPECT_NE(messageOf<ros_io::InputError>([this] {
+  EXPECT_NE(messageOf<InputError>([this] {
               readImages(data_ + "/zed_steps");
             }).find("zed_steps/calib.txt: does not exist"),
             std::string::npos);

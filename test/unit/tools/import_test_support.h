@@ -7,12 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "unit/eval/eval_test_support.h"
+#include "support/trajectories.h"
 
 namespace stereo_nav::tools {
-
-using eval::messageOf;
-using eval::TemporaryFolder;
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <random>
 
-#include "stereo_nav/eval/trajectory.h"
-#include "stereo_nav/imu/module_angles.h"
+#include "sensors/imu/module_angles.h"
+#include "stereo_nav/core/trajectory.h"
 #include "support/command.h"
 
 namespace stereo_nav::test {
@@ -35,14 +35,14 @@ class ImuPrograms : public testing::Test {
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
   void writeTum(const std::string& name) const {
-    eval::Trajectory trajectory;
+    Trajectory trajectory;
     for (double t = 0.0; t < kDuration_s + 1.0; t += kPeriod_s) {
-      eval::StampedPose pose;
+      StampedPose pose;
       pose.time_s = kStart_s + t;
       pose.T_world_body.linear() = imu::orientationFromModule(anglesAt(t)).toRotationMatrix();
       trajectory.push_back(pose);
     }
-    std::ofstream(file(name)) << eval::toTum(trajectory);
+    std::ofstream(file(name)) << toTum(trajectory);
   }
 
   /// `duration_s` of imu/data; `drift_deg_s` of yaw when it does not move.

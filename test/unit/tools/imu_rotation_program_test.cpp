@@ -9,8 +9,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "stereo_nav/calibration/rig_mounting.h"
-#include "stereo_nav/ros_io/recording.h"
+#include "calibration/rig_mounting.h"
+#include "stereo_nav/ros/recording.h"
 #include "support/command.h"
 #include "support/wiggle_bag.h"
 

@@ -1,12 +1,13 @@
 // The disparity maps that true_disparity writes, read back as evaluate does.
-#include "../../../src/tools/recorded_disparity.h"
+#include "tools/evaluate/recorded_disparity.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "stereo_nav/ros_io/recording.h"
-#include "stereo_nav/sim/simulation.h"
+#include "sim/simulation.h"
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/ros/recording.h"
 #include "support/command.h"
 
 namespace stereo_nav::tools {
@@ -50,8 +51,8 @@ TEST(RecordedDisparity, WhatIsNotThereIsEmptyOrRefused) {
   EXPECT_TRUE(exact.at(kStart_s + 1.0).empty());  // a map every two seconds
   EXPECT_FALSE(exact.at(kStart_s + 2.0).empty());
   EXPECT_TRUE(exact.at(kStart_s + 1000.0).empty());
-  EXPECT_THROW(RecordedDisparity(STEREO_NAV_SOURCE_DIR "/bags/arena_start.bag"), ros_io::InputError);
-  EXPECT_THROW(RecordedDisparity("/nowhere.bag"), ros_io::InputError);
+  EXPECT_THROW(RecordedDisparity(STEREO_NAV_SOURCE_DIR "/bags/arena_start.bag"), InputError);
+  EXPECT_THROW(RecordedDisparity("/nowhere.bag"), InputError);
   const auto result =
       test::runCommand("ROS_PACKAGE_PATH=" STEREO_NAV_SOURCE_DIR " " TRUE_DISPARITY " " + kScenario +
                        " --output " + testing::TempDir() + "skew.bag --set timing.skew_ms=5");

@@ -1,4 +1,4 @@
-#include "import/sequence_bag.h"
+#include "tools/import_sequence/sequence_bag.h"
 
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Image.h>
@@ -8,7 +8,8 @@
 
 #include "import_test_support.h"
 #include "stereo_nav/StereoSync.h"
-#include "stereo_nav/ros_io/conversions.h"
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/ros/conversions.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -107,9 +108,8 @@ TEST_F(SequenceBag, leftImagesWithoutALaterRightOneAreCounted) {
   EXPECT_EQ(summary_.pairs, 2u);
   EXPECT_EQ(summary_.left_without_partner, 4u);
   options.right_lag_frames = 6;
-  EXPECT_NE(
-      messageOf<ros_io::InputError>([&] { importEuroc(options, "none.bag"); }).find("no left image of 6"),
-      std::string::npos);
+  EXPECT_NE(messageOf<InputError>([&] { importEuroc(options, "none.bag"); }).find("no left image of 6"),
+            std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none.bag"));
 }
 
@@ -178,7 +178,7 @@ TEST_F(SequenceBag, sameInputSameBytes) {
 TEST_F(SequenceBag, anImageOfAnotherSizeLeavesNoBag) {
   writeImage(folder_, "cam1/data/" + std::to_string(kEurocStart_ns + 2 * kEurocPeriod_ns) + ".png",
              frameOf(2, kWidth + 2));
-  EXPECT_NE(messageOf<ros_io::InputError>([&] {
+  EXPECT_NE(messageOf<InputError>([&] {
               importEuroc(atImu());
             }).find("frame 2 of camera/right/image_raw is 66x48, the calibration 64x48"),
             std::string::npos);

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "stereo_nav/core/imu_sample.h"
+#include "stereo_nav/core/lie.h"
+#include "stereo_nav/vision/stereo_calibration.h"
+
+namespace stereo_nav::odometry {
+
+constexpr double kLongestReadout_s = 0.2;  ///< no rolling shutter takes longer
+
+/// A rectified stereo pair. Left and right carry their own times: two free-running cameras never agree.
+struct StereoFrame {
+  double left_time_s = 0.0;
+  double right_time_s = 0.0;
+  /// Rolling shutter: time from the first row to the last; the times above are the middle row's.
+  double readout_s = 0.0;
+  cv::Mat left;       ///< CV_8UC1, rectified
+  cv::Mat right;      ///< CV_8UC1, rectified; may be empty where the composition only uses the disparity map
+  cv::Mat disparity;  ///< CV_32FC1 in px, values <= 0 or NaN mean "no disparity"; empty if there is no map
+};
+
+/// Which disparity map an odometry wants in StereoFrame::disparity.
+enum class DisparityUse {
+  kNone,     ///< reads none: nobody needs to compute it
+  kMatched,  ///< that of the frame itself
+  kLatest,   ///< the newest that has come, often that of the frame before, as the thesis' program did
+};
+
+enum class State { kInitialising, kTracking, kCoasting, kLost };  // as in VoStatus.msg
+
+/// What became of one feature of the left image, for pictures and clouds.
+struct FeatureReport {
+  enum class Fate { kDetected, kTracked, kNoDepth, kRejected, kInlier };
+  std::uint64_t id = 0;
+  cv::Point2f
+      previous_px;  ///< where it was in the frame the motion is measured against; equals current_px if new
+  cv::Point2f current_px;
+  Fate fate = Fate::kDetected;
+  Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  ///< left optical frame, m; zero if without depth
+};
+
+/// Wall-clock time that a stage of this frame took.
+struct StageTime {
+  const char* stage;
+  double milliseconds;
+};
+
+/// Everything that one frame yields. Poses are of the left optical frame, relative to its pose in the first
+/// frame.
+struct FrameResult {
+  State state = State::kInitialising;
+  std::string reason;  ///< why it is not kTracking: what was seen, the likely cause, the remedy
+  Eigen::Isometry3d T_start_camera = Eigen::Isometry3d::Identity();     ///< held while lost
+  Eigen::Isometry3d T_previous_camera = Eigen::Isometry3d::Identity();  ///< motion since the previous frame
+  Matrix6d motion_covariance =
+      Matrix6d::Zero();  ///< of T_previous_camera, current camera frame: m, m, m, rad, rad, rad
+  bool keyframe = false;
+  std::uint32_t keyframe_id = 0;
+  std::uint32_t features_detected = 0;
+  std::uint32_t features_tracked = 0;
+  std::uint32_t features_with_depth = 0;
+  std::uint32_t clique_size = 0;
+  std::uint32_t inliers = 0;
+  double reprojection_error_px = std::numeric_limits<double>::quiet_NaN();  ///< RMS over the inliers
+  double rotation_disagreement_rad = std::numeric_limits<double>::quiet_NaN();
+  bool skew_compensated = false;
+  std::vector<FeatureReport> features;
+  std::vector<StageTime> stage_times;
+};
+
+/// What the nodes and tools know of a visual odometry. Not thread-safe: one caller feeds it, frames in order
+/// of time. Deterministic: equal input gives equal output to the last bit.
+class Odometry {
+ public:
+  virtual ~Odometry() = default;
+
+  /// Samples in order of time (older ones are ignored); those around a frame's stamps must come before the
+  /// frame.
+  virtual void addImu(const ImuSample& sample) = 0;
+
+  /// Frames must be of the calibration's size and in order of time; throws std::invalid_argument where it can
+  /// tell that they are not.
+  virtual FrameResult process(const StereoFrame& frame) = 0;
+
+  /// Forgets frames, features and IMU samples; the next frame is a new start.
+  virtual void reset() = 0;
+};
+
+}  // namespace stereo_nav::odometry

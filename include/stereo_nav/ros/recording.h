@@ -1,0 +1,101 @@
+#pragma once
+
+#include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <tf2/buffer_core.h>
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stereo_nav/core/imu_sample.h"
+#include "stereo_nav/core/trajectory.h"
+#include "stereo_nav/ros/conversions.h"
+#include "stereo_nav/ros/pairing.h"
+
+namespace stereo_nav::ros_io {
+
+/// Which part of a recording is read, s.
+struct RecordingOptions {
+  double start_s = 0.0;  ///< after the first left image
+  double duration_s = std::numeric_limits<double>::infinity();
+  std::optional<double> rolling_shutter_s;  ///< in place of what camera/sync says; 0: global shutter
+};
+
+/// One pair of raw images as recorded, grey, with the true exposure times.
+struct RawPair {
+  double left_time_s;
+  double right_time_s;
+  double rolling_shutter_s;
+  cv::Mat left;   ///< CV_8UC1
+  cv::Mat right;  ///< CV_8UC1
+};
+
+/// A bag with the topics of a stereo rig (`camera/{left,right}/{image_raw,camera_info}`, and when there are
+/// any `camera/sync`, `imu/data` or `imu_quat`, `tf_static`, ground truth), read without a master. Opening
+/// reads everything but the images; those are streamed. A prefix common to all topics (a namespace) is found
+/// by itself. Throws InputError: unreadable or damaged file, missing topics (says which there are), NaN in
+/// the IMU.
+class Recording {
+ public:
+  Recording(const std::string& path, const RecordingOptions& options);
+
+  const sensor_msgs::CameraInfo& leftInfo() const { return left_info_; }
+  const sensor_msgs::CameraInfo& rightInfo() const { return right_info_; }
+  std::size_t pairs() const { return pairs_.size(); }
+  std::size_t unpairedImages() const { return unpaired_images_; }
+  const std::vector<ImuSample>& imu() const { return imu_; }
+  const std::string& imuFrame() const { return imu_frame_; }  ///< empty: none given, or no IMU
+
+  /// Pose of frame `source` in frame `target` by the recorded static transforms; nothing if they do not
+  /// connect them.
+  std::optional<Eigen::Isometry3d> transform(const std::string& target, const std::string& source) const;
+
+  /// Poses on a topic (nav_msgs/Odometry, geometry_msgs/PoseStamped or TransformStamped), and of which frame
+  /// they are (empty when the type does not say). Empty trajectory when the bag has no such topic and none
+  /// was named.
+  struct GroundTruth {
+    Trajectory trajectory;
+    std::string body_frame;
+  };
+  GroundTruth groundTruth(const std::string& topic, bool required) const;
+
+  /// Every pair once, in order of the left stamps. Throws InputError for an image that cannot be used.
+  void forEachPair(const std::function<void(const RawPair&)>& handle) const;
+
+ private:
+  struct Topics {
+    std::string left, right, left_info, right_info;
+    std::optional<std::string> sync, imu, imu_quat;
+  };
+
+  void findTopics();
+  void readMessages();
+  void readImu();
+  void readTransforms();
+  void pairImages(const RecordingOptions& options);
+  std::optional<std::string> find(const std::string& relative_name) const;
+  std::string require(const std::string& relative_name) const;
+  std::string topicList() const;
+  sensor_msgs::CameraInfo firstInfo(const std::string& topic) const;
+
+  std::string path_;
+  mutable rosbag::Bag bag_;
+  std::vector<std::string> all_topics_;
+  Topics topics_;
+  sensor_msgs::CameraInfo left_info_;
+  sensor_msgs::CameraInfo right_info_;
+  std::vector<ImuSample> imu_;
+  std::string imu_frame_;
+  tf2::BufferCore transforms_;
+  std::vector<ros::Time> left_stamps_;
+  std::vector<ros::Time> right_stamps_;
+  std::vector<StampPair> pairs_;
+  std::size_t unpaired_images_ = 0;
+};
+
+}  // namespace stereo_nav::ros_io

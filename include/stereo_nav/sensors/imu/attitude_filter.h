@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+
+#include "stereo_nav/core/parameter_visitor.h"
+
+namespace stereo_nav::imu {
+
+/// Calibrated measurements of one instant, IMU frame (front-left-up).
+struct InertialSample {
+  double time_s = 0.0;
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();     ///< rad/s
+  Eigen::Vector3d linear_acceleration = Eigen::Vector3d::Zero();  ///< specific force, m/s^2
+  std::optional<Eigen::Vector3d> magnetic_field;                  ///< any unit
+};
+
+enum class AttitudeMethod { kMahony, kMadgwick };
+
+/// The gains are for a robot that drives: low, since every curve and every braking tilts what the
+/// accelerometer measures, while the gyroscope is calibrated.
+struct AttitudeParams {
+  AttitudeMethod method = AttitudeMethod::kMahony;
+  bool use_magnetometer = false;
+  double acceleration_gate_m_s2 = 1.0;
+  double mahony_kp = 0.15;
+  double mahony_ki = 0.005;
+  double madgwick_beta = 0.005;
+  double madgwick_zeta = 0.0002;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+/// Attitude from gyroscope, accelerometer and, when wanted, magnetometer.
+///
+/// `q_world_imu` takes IMU coordinates into a world with z up. Its x axis points east when a magnetometer is
+/// used (REP-103; declination is not corrected), otherwise along the IMU's x axis at the start. Without
+/// magnetometer the yaw drifts by the gyroscope's remaining bias; nothing can be done about that here.
+///
+/// The accelerometer measures gravity only while the robot does not accelerate: samples whose magnitude is
+/// off from 9.80665 by more than `acceleration_gate_m_s2` are integrated by gyroscope alone.
+class AttitudeFilter {
+ public:
+  static constexpr double kGravity_m_s2 = 9.80665;
+  /// Over a longer gap nothing is integrated: tilt is taken from the accelerometer again, heading is kept.
+  static constexpr double kMaxGap_s = 0.2;
+
+  explicit AttitudeFilter(const AttitudeParams& params) : params_(params) {}
+  virtual ~AttitudeFilter() = default;
+
+  /// Samples must come with growing time; others are ignored (returns false).
+  bool update(const InertialSample& sample);
+  void reset();
+
+  void forgetBias() { gyro_bias_.setZero(); }
+
+  /// False until a first sample with a usable accelerometer (and magnetometer, where used) has come.
+  bool initialised() const { return initialised_; }
+  const Eigen::Quaterniond& q_world_imu() const { return q_world_imu_; }
+  /// The bias the filter has found and subtracts, rad/s.
+  const Eigen::Vector3d& gyroBias() const { return gyro_bias_; }
+
+ protected:
+  struct Directions {
+    std::optional<Eigen::Vector3d> up;     ///< measured, unit, IMU frame
+    std::optional<Eigen::Vector3d> field;  ///< measured, unit, IMU frame
+  };
+  /// Advances `q_world_imu_` by `dt_s`; need not normalise. May change `gyro_bias_`.
+  virtual void step(const Eigen::Vector3d& angular_velocity, const Directions& measured, double dt_s) = 0;
+
+  AttitudeParams params_;
+  Eigen::Quaterniond q_world_imu_ = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d gyro_bias_ = Eigen::Vector3d::Zero();
+
+ private:
+  Directions directionsOf(const InertialSample& sample) const;
+  bool initialise(const Directions& measured, bool keep_heading);
+
+  bool initialised_ = false;
+  double last_time_s_ = 0.0;
+};
+
+/// The filter that `params.method` names.
+std::unique_ptr<AttitudeFilter> makeAttitudeFilter(const AttitudeParams& params);
+
+}  // namespace stereo_nav::imu

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "stereo_nav/core/trajectory.h"
+
+namespace stereo_nav::eval {
+
+/// Bounds of looking up a pose by time.
+struct AssociationParams {
+  double max_gap_s = 0.25;          ///< two neighbours further apart than this leave a hole
+  double max_difference_s = 0.002;  ///< in a hole or beyond the ends, the nearest pose counts if this near
+};
+
+/// Ground truth at an instant. Ground truth is usually much denser than the images (EuRoC: 200 Hz against 20
+/// Hz) and its stamps are its own, so the pose is interpolated between the two neighbours (position linearly,
+/// rotation by slerp) rather than taken from the nearest one: at 200 Hz and 1 m/s "nearest" alone would cost
+/// up to 2.5 mm. A stamp that ground truth has itself gives that very pose. Nothing where the trajectory does
+/// not cover the instant.
+std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory, double time_s,
+                                        const AssociationParams& params = {});
+
+/// The rigid motion (no scale) T_target_source that minimises sum |target_i - T_target_source * source_i|^2;
+/// Umeyama, "Least-squares estimation of transformation parameters between two point patterns", PAMI 1991.
+/// Needs as many targets as sources, at least one. Points on a line leave the rotation about it open; the
+/// residual is unaffected.
+Eigen::Isometry3d alignRigidly(const std::vector<Eigen::Vector3d>& source,
+                               const std::vector<Eigen::Vector3d>& target);
+
+}  // namespace stereo_nav::eval

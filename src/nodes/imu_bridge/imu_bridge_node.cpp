@@ -1,0 +1,227 @@
+#include "nodes/imu_bridge/imu_bridge_node.h"
+
+#include <std_msgs/String.h>
+
+#include <chrono>
+#include <filesystem>
+#include <sstream>
+
+#include "nodes/imu_bridge/imu_messages.h"
+#include "ros/parameter_server.h"
+#include "ros/rig.h"
+#include "stereo_nav/ros/topics.h"
+
+namespace stereo_nav::nodes {
+namespace {
+
+constexpr double kRepeat_s = 10.0;
+/// Beyond the time of the measurement itself.
+constexpr double kCalibrationPatience_s = 5.0;
+
+ros_io::ImuBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
+  ros_io::ImuBridgeParams params;
+  ros_io::readParameters({ros_io::fileSource(private_handle, "config"),
+                          ros_io::rigSource(private_handle, ros_io::rig_sections::kImu),
+                          ros_io::serverSource(private_handle, {"diagnostic_period"})},
+                         params);
+  return params;
+}
+
+/// dynamic_reconfigure takes its first values from the server.
+const ros::NodeHandle& announce(const ros::NodeHandle& private_handle,
+                                const ros_io::ImuBridgeParams& params) {
+  ros_io::writeParameters(private_handle, params);
+  return private_handle;
+}
+
+/// A file that does not exist yet is one that imu/calibrate_gyro will write.
+imu::ImuCalibration readCalibration(const std::string& path) {
+  if (path.empty() || !std::filesystem::exists(path)) return {};
+  return imu::loadCalibration(path);
+}
+
+}  // namespace
+
+ImuBridgeNode::ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle),
+      private_handle_(private_handle),
+      params_(readNodeParams(private_handle_)),
+      device_(params_.device, imu::PortFinder(params_.port, params_.by_id_directory)),
+      updater_(handle_, private_handle_),
+      estimator_(params_.filter, readCalibration(params_.calibration_file), params_.rate_window_s),
+      reconfigure_server_(announce(private_handle_, params_)) {
+  // Calls back at once with the parameters as they are.
+  reconfigure_server_.setCallback(
+      [this](const ImuBridgeConfig& config, std::uint32_t) { reconfigure(config); });
+  data_ = handle_.advertise<sensor_msgs::Imu>(ros_io::topics::kImu, 100);
+  quaternion_ = handle_.advertise<geometry_msgs::Quaternion>(ros_io::topics::kImuQuaternion, 100);
+  if (params_.device.protocol == imu::Protocol::kRaw) {
+    data_raw_ = handle_.advertise<sensor_msgs::Imu>("imu/data_raw", 100);
+  }
+  if (params_.chatter) chatter_ = handle_.advertise<std_msgs::String>("chatter", 10);
+  calibrate_gyro_ = handle_.advertiseService("imu/calibrate_gyro", &ImuBridgeNode::calibrateGyro, this);
+  reset_yaw_ = handle_.advertiseService("imu/reset_yaw", &ImuBridgeNode::resetYaw, this);
+  updater_.setHardwareID(params_.port);
+  updater_.add("imu", this, &ImuBridgeNode::fillStatus);
+  watch_timer_ = handle_.createWallTimer(ros::WallDuration(0.5), &ImuBridgeNode::watch, this);
+}
+
+void ImuBridgeNode::reconfigure(const ImuBridgeConfig& config) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  params_.tilt_stddev_rad = config.tilt_stddev_rad;
+  params_.yaw_stddev_rad = config.yaw_stddev_rad;
+  params_.angular_velocity_stddev_rad_s = config.angular_velocity_stddev_rad_s;
+  params_.linear_acceleration_stddev_m_s2 = config.linear_acceleration_stddev_m_s2;
+}
+
+void ImuBridgeNode::run() {
+  constexpr double kPoll_s = 0.1;
+  while (ros::ok()) {
+    device_.poll(kPoll_s, [this](const imu::ImuReading& reading) { publish(reading); });
+  }
+  calibrated_.notify_all();
+}
+
+/// Stamps are made on the steady clock, which no clock synchronisation sets; the step to ROS time is measured
+/// anew for each.
+ros::Time ImuBridgeNode::rosTime(double steady_s) {
+  ros::Time stamp = ros::Time::now() - ros::Duration(imu::steadyNow_s() - steady_s);
+  const ros::Duration one_microsecond(0, 1000);
+  const bool clock_was_set_back = last_stamp_ - stamp > ros::Duration(1.0);
+  if (stamp <= last_stamp_ && !clock_was_set_back) stamp = last_stamp_ + one_microsecond;
+  last_stamp_ = stamp;
+  return stamp;
+}
+
+void ImuBridgeNode::publish(const imu::ImuReading& reading) {
+  const ros::Time stamp = rosTime(reading.time_s);
+  imu::ImuEstimate estimate;
+  sensor_msgs::Imu message, message_raw;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    estimate = estimator_.process(reading);
+    if (calibrator_ && reading.raw) {
+      calibrator_->add(reading.time_s, reading.raw->angular_velocity, reading.raw->linear_acceleration);
+      if (calibrator_->complete()) calibrated_.notify_all();
+    }
+    message = toMessage(estimate, params_, stamp);
+    if (reading.raw) {
+      const imu::ImuEstimate raw{std::nullopt, reading.raw->angular_velocity,
+                                 reading.raw->linear_acceleration};
+      message_raw = toMessage(raw, params_, stamp);
+    }
+  }
+  data_.publish(message);
+  if (estimate.q_world_imu) quaternion_.publish(toMessage(*estimate.q_world_imu));
+  if (reading.raw) data_raw_.publish(message_raw);
+  if (params_.chatter && reading.angles) publishAngles(*reading.angles);
+}
+
+void ImuBridgeNode::publishAngles(const imu::ModuleAngles& angles) {
+  std::ostringstream text;
+  text << "yaw: " << angles.yaw_deg << " pitch: " << angles.pitch_deg << " roll: " << angles.roll_deg;
+  std_msgs::String message;
+  message.data = text.str();
+  chatter_.publish(message);
+}
+
+bool ImuBridgeNode::calibrateGyro(std_srvs::Trigger::Request& /*request*/,
+                                  std_srvs::Trigger::Response& response) {
+  if (params_.device.protocol != imu::Protocol::kRaw) {
+    response.message =
+        "this module sends angles, not rates: it calibrates its gyroscope itself, when it is switched on at "
+        "rest";
+    return true;
+  }
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (calibrator_) {
+    response.message = "a calibration is running already";
+    return true;
+  }
+  calibrator_.emplace(params_.gyro_calibration);
+  const auto patience =
+      std::chrono::duration<double>(params_.gyro_calibration.duration_s + kCalibrationPatience_s);
+  calibrated_.wait_for(lock, patience, [this] { return calibrator_->complete() || !ros::ok(); });
+  finishCalibration(calibrator_->result(), response);
+  calibrator_.reset();
+  return true;
+}
+
+/// The mutex is held.
+void ImuBridgeNode::finishCalibration(const imu::GyroCalibrator::Result& result,
+                                      std_srvs::Trigger::Response& response) {
+  response.success = static_cast<unsigned char>(result.accepted);
+  response.message = result.message;
+  if (!result.accepted) return;
+  estimator_.setGyroBias(result.bias);
+  if (params_.calibration_file.empty()) {
+    response.message += "; used until this node ends (no calibration_file is set)";
+    return;
+  }
+  try {
+    imu::saveCalibration(estimator_.calibration(), params_.calibration_file);
+    response.message += "; stored in " + params_.calibration_file;
+  } catch (const std::exception& error) {
+    response.message += std::string("; used, but not stored: ") + error.what();
+  }
+}
+
+bool ImuBridgeNode::resetYaw(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  estimator_.resetYaw();
+  response.success = 1;
+  response.message = "the present heading is zero now";
+  return true;
+}
+
+void ImuBridgeNode::watch(const ros::WallTimerEvent& /*event*/) {
+  updater_.update();
+  reportState();
+}
+
+/// Says changes at once, and what is wrong again every ten seconds.
+void ImuBridgeNode::reportState() {
+  const imu::ImuDeviceStatus status = device_.status();
+  const bool good = status.state == imu::LinkState::kStreaming;
+  if (status.state == imu::LinkState::kWaiting) return;
+  const ros::WallTime now = ros::WallTime::now();
+  const bool changed = status.state != reported_state_;
+  if (!changed && (good || (now - reported_at_).toSec() < kRepeat_s)) return;
+  reported_state_ = status.state;
+  reported_at_ = now;
+  if (good) {
+    ROS_INFO_STREAM(params_.port << ": " << status.message);
+  } else {
+    ROS_ERROR_STREAM(params_.port << ": " << status.message);
+  }
+}
+
+void ImuBridgeNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using Level = diagnostic_msgs::DiagnosticStatus;
+  const imu::ImuDeviceStatus device = device_.status();
+  const auto bad = device.counters.bad_frames - reported_counters_.bad_frames;
+  const auto good = device.counters.frames - reported_counters_.frames;
+  reported_counters_ = device.counters;
+  if (device.state == imu::LinkState::kWaiting) {
+    status.summary(Level::WARN, device.message);
+  } else if (device.state != imu::LinkState::kStreaming) {
+    status.summary(Level::ERROR, device.message);
+  } else if (10 * bad > good) {
+    status.summary(Level::WARN,
+                   "more than a tenth of the frames are damaged: check cable, ground and baud rate");
+  } else {
+    status.summary(Level::OK, device.message);
+  }
+  status.add("port", params_.port);
+  status.add("rate (Hz)", device.rate_hz);
+  status.add("arrival jitter (ms)", 1e3 * device.arrival_jitter_s);
+  status.add("stamp jitter (ms)", 1e3 * device.stamp_jitter_s);
+  status.add("frames", device.counters.frames);
+  status.add("bad frames", device.counters.bad_frames);
+  status.add("lost frames", device.counters.lost_frames);
+  status.add("bytes", device.counters.bytes);
+  status.add("bytes skipped", device.counters.bytes_skipped);
+  status.add("connections", device.connections);
+}
+
+}  // namespace stereo_nav::nodes

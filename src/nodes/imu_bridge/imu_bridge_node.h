@@ -1,0 +1,60 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <dynamic_reconfigure/server.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+
+#include "ros/imu_bridge_params.h"
+#include "sensors/imu/imu_estimator.h"
+#include "stereo_nav/ImuBridgeConfig.h"
+
+namespace stereo_nav::nodes {
+
+/// A serial IMU module on ROS topics: imu/data, imu/data_raw (raw modules), imu_quat, chatter.
+///
+/// run() reads the module in the calling thread; services and diagnostics are answered by others.
+class ImuBridgeNode {
+ public:
+  /// Throws ParameterError.
+  ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  /// Until ROS shuts down.
+  void run();
+
+ private:
+  void reconfigure(const ImuBridgeConfig& config);
+  void publish(const imu::ImuReading& reading);
+  void publishAngles(const imu::ModuleAngles& angles);
+  ros::Time rosTime(double steady_s);
+  bool calibrateGyro(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool resetYaw(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void finishCalibration(const imu::GyroCalibrator::Result& result, std_srvs::Trigger::Response& response);
+  void fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void watch(const ros::WallTimerEvent& event);
+  void reportState();
+
+  ros::NodeHandle handle_, private_handle_;
+  ros_io::ImuBridgeParams params_;
+  imu::ImuDevice device_;
+  ros::Publisher data_, data_raw_, quaternion_, chatter_;
+  ros::ServiceServer calibrate_gyro_, reset_yaw_;
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer watch_timer_;
+  ros::Time last_stamp_;
+
+  std::mutex mutex_;  ///< guards estimator, calibrator and the standard deviations in params_
+  std::condition_variable calibrated_;
+  imu::ImuEstimator estimator_;
+  std::optional<imu::GyroCalibrator> calibrator_;
+
+  imu::LinkState reported_state_ = imu::LinkState::kWaiting;
+  ros::WallTime reported_at_;
+  imu::DecoderCounters reported_counters_;
+  dynamic_reconfigure::Server<ImuBridgeConfig> reconfigure_server_;
+};
+
+}  // namespace stereo_nav::nodes

@@ -1,0 +1,159 @@
+#include "nodes/recorder/recorder_node.h"
+
+#include <rosbag/recorder.h>
+
+#include <sstream>
+
+#include "ros/parameter_server.h"
+#include "stereo_nav/ros/topics.h"
+
+namespace stereo_nav::nodes {
+namespace {
+
+namespace fs = std::filesystem;
+namespace topics = ros_io::topics;
+
+constexpr double kPeriod_s = 1.0;
+constexpr double kRepeat_s = 30.0;
+constexpr double kGiga = 1e9;
+
+RecorderParams readParams(const ros::NodeHandle& private_handle) {
+  RecorderParams params;
+  ros_io::readParameters({ros_io::serverSource(private_handle, {"diagnostic_period"})}, params);
+  if (params.folder.empty()) throw ParameterError("~folder is not set: where are the recordings to go?");
+  return params;
+}
+
+/// Absolute, so that what is said of it can be found: roslaunch starts nodes in ROS_HOME.
+fs::path makeFolder(const RecorderParams& params) {
+  const fs::path folder = fs::absolute(params.folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw ParameterError("~folder " + folder.string() + " cannot be made: " + error.message());
+  const auto space = fs::space(folder, error);
+  const double free_gb = static_cast<double>(space.available) / kGiga;
+  if (!error && free_gb < params.reserve_gb) {
+    std::ostringstream text;
+    text << "~folder " << folder.string() << " has " << free_gb
+         << " GB free, less than ~reserve_gb = " << params.reserve_gb
+         << "; delete old recordings or record to another disk";
+    throw ParameterError(text.str());
+  }
+  return folder;
+}
+
+/// Everything that is needed to run the odometry on the recording later, and what the robot said meanwhile.
+std::vector<std::string> recordedTopics(const RecorderParams& params) {
+  std::vector<std::string> names = {topics::kLeftImage, topics::kRightImage,    topics::kLeftInfo,
+                                    topics::kRightInfo, topics::kSync,          topics::kImu,
+                                    "imu/data_raw",     topics::kImuQuaternion, topics::kGroundTruth,
+                                    "/tf_static",       "/diagnostics"};
+  std::istringstream more(params.more_topics);
+  for (std::string name; std::getline(more, name, ',');) names.push_back(name);
+  for (auto& name : names) name = ros::names::resolve(name);
+  return names;
+}
+
+std::uint64_t toBytes(double gigabytes) {
+  return static_cast<std::uint64_t>(gigabytes * kGiga);
+}
+
+}  // namespace
+
+void RecorderParams::describe(ParameterVisitor& visitor) {
+  visitor.text("folder", folder, "where the bags go; made if it does not exist");
+  visitor.text("prefix", prefix, "how the bags' names begin; date, time and number follow");
+  visitor.text("more_topics", more_topics, "topics to record beside the sensors, with commas between");
+  visitor.integer("split_mb", split_mb, {16, 1000000}, "MB",
+                  "a bag that has this size is closed, the next begins");
+  visitor.integer("buffer_mb", buffer_mb, {16, 100000}, "MB",
+                  "memory for what the disk does not take at once");
+  visitor.real("reserve_gb", reserve_gb, {0.01, 10000.0}, "GB",
+               "left free on the disk: recording stops there");
+  visitor.real("warn_before_min", warn_before_min, {0.1, 1440.0}, "min",
+               "warn when the disk lasts less long");
+}
+
+RecorderNode::RecorderNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle),
+      params_(readParams(private_handle)),
+      folder_(makeFolder(params_)),
+      bytes_before_(recordedBytes()),
+      disk_(toBytes(params_.reserve_gb), 60.0 * params_.warn_before_min),
+      updater_(handle_, private_handle) {
+  updater_.setHardwareID("none");
+  updater_.add("recording", this, &RecorderNode::fillStatus);
+  timer_ = handle_.createWallTimer(ros::WallDuration(kPeriod_s), &RecorderNode::watch, this);
+}
+
+int RecorderNode::run() {
+  constexpr unsigned int kMega = 1024 * 1024;
+  rosbag::RecorderOptions options;
+  options.prefix = (folder_ / params_.prefix).string();
+  options.topics = recordedTopics(params_);
+  options.split = true;
+  options.max_size = static_cast<std::uint64_t>(params_.split_mb) * kMega;
+  options.buffer_size = static_cast<std::uint32_t>(params_.buffer_mb) * kMega;
+  options.min_space = toBytes(params_.reserve_gb);
+  options.min_space_str = std::to_string(params_.reserve_gb) + "G";
+  options.repeat_latched = true;  // each bag stands alone: tf_static is in all of them
+  options.transport_hints.tcpNoDelay();
+  rosbag::Recorder recorder(options);
+  return recorder.run();
+}
+
+/// Of all recordings of this name. A bag may be renamed while the folder is read.
+std::uint64_t RecorderNode::recordedBytes() const {
+  std::uint64_t bytes = 0;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+    if (entry.path().filename().string().compare(0, params_.prefix.size(), params_.prefix) != 0) continue;
+    const auto size = entry.file_size(error);
+    if (!error) bytes += size;
+  }
+  return bytes;
+}
+
+void RecorderNode::watch(const ros::WallTimerEvent& /*event*/) {
+  std::error_code error;
+  const auto space = fs::space(folder_, error);
+  if (error) {
+    unreadable_ = "the folder " + folder_.string() + " cannot be looked at: " + error.message() +
+                  "; was its disk unplugged, or the folder removed?";
+    updater_.update();
+    ROS_ERROR_STREAM_THROTTLE(kRepeat_s, unreadable_);
+    return;
+  }
+  unreadable_.clear();
+  const std::uint64_t bytes = recordedBytes();
+  const ros::WallTime now = ros::WallTime::now();
+  disk_.add(now.toSec(), bytes - std::min(bytes, bytes_before_), space.available);
+  updater_.update();
+
+  const DiskWatch::State state = disk_.state();
+  if (state == DiskWatch::State::kStarting) return;
+  if (state == said_ && (now - said_at_).toSec() < kRepeat_s) return;
+  said_ = state;
+  said_at_ = now;
+  if (state == DiskWatch::State::kGood) ROS_INFO_STREAM(disk_.text());
+  if (state == DiskWatch::State::kLow || state == DiskWatch::State::kSilent) ROS_WARN_STREAM(disk_.text());
+  if (state == DiskWatch::State::kFull) ROS_ERROR_STREAM(disk_.text());
+}
+
+void RecorderNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using Level = diagnostic_msgs::DiagnosticStatus;
+  const DiskWatch::State state = disk_.state();
+  const bool good = state == DiskWatch::State::kGood || state == DiskWatch::State::kStarting;
+  status.summary(good                               ? Level::OK
+                 : state == DiskWatch::State::kFull ? Level::ERROR
+                                                    : Level::WARN,
+                 disk_.text());
+  status.add("folder", folder_.string());
+  if (!unreadable_.empty()) status.summary(Level::ERROR, unreadable_);
+  status.addf("rate [MB/s]", "%.2f", disk_.rate() / 1e6);
+  status.addf("written [MB]", "%.1f", static_cast<double>(disk_.bytesWritten()) / 1e6);
+  status.addf("free [GB]", "%.2f", static_cast<double>(disk_.bytesFree()) / 1e9);
+  if (const auto left = disk_.secondsLeft()) status.addf("lasts [min]", "%.1f", *left / 60.0);
+}
+
+}  // namespace stereo_nav::nodes

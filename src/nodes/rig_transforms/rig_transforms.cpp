@@ -1,0 +1,76 @@
+// The rig file checked as a whole, and where its sensors sit published as static transforms.
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include "nodes/rig_transforms/rig_transforms_params.h"
+#include "ros/capture_setup.h"
+#include "ros/imu_bridge_params.h"
+#include "ros/node_program.h"
+#include "ros/parameter_server.h"
+#include "ros/rig.h"
+#include "ros/stereo_processing.h"
+
+namespace stereo_nav::nodes {
+namespace {
+
+/// Sections that other nodes read are checked here, too: wherever a mistake is, this node names it.
+void checkSections(const ros::NodeHandle& private_handle) {
+  ros_io::CaptureSetup cameras;
+  cameras.read({ros_io::rigSource(private_handle, ros_io::rig_sections::kCameras)});
+  ros_io::ImuBridgeParams imu;
+  ros_io::readParameters({ros_io::rigSource(private_handle, ros_io::rig_sections::kImu)}, imu);
+  ros_io::DisparityParams disparity;
+  ros_io::readParameters({ros_io::rigSource(private_handle, ros_io::rig_sections::kDisparity)}, disparity);
+}
+
+geometry_msgs::TransformStamped toMessage(const std::string& parent, const std::string& child,
+                                          const Eigen::Isometry3d& T) {
+  geometry_msgs::TransformStamped message = tf2::eigenToTransform(T);
+  message.header.stamp = ros::Time::now();
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  return message;
+}
+
+void addPose(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
+             const ros_io::SensorMounting& pose) {
+  status.addf(name + " x, y, z [m]", "%.3f, %.3f, %.3f", pose.x_m, pose.y_m, pose.z_m);
+  status.addf(name + " roll, pitch, yaw [deg]", "%.2f, %.2f, %.2f", pose.roll_deg, pose.pitch_deg,
+              pose.yaw_deg);
+}
+
+int run() {
+  ros::NodeHandle handle, private_handle("~");
+  RigTransformsParams params;
+  ros_io::readParameters({ros_io::serverSource(private_handle, {"diagnostic_period"})}, params);
+  const auto rig = private_handle.param<std::string>("rig", "");
+  if (rig.empty()) throw ParameterError("~rig is not set; it is the path of the rig file");
+  const ros_io::Mounting mounting = ros_io::loadMounting(rig);
+  checkSections(private_handle);
+
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  broadcaster.sendTransform(std::vector<geometry_msgs::TransformStamped>{
+      toMessage(params.base_frame, params.camera_frame, mounting.T_base_optical()),
+      toMessage(params.base_frame, params.imu_frame, mounting.imu.T_base_sensor())});
+
+  diagnostic_updater::Updater updater(handle, private_handle);
+  updater.setHardwareID("none");
+  updater.add("mounting", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "from " + rig);
+    addPose(status, "camera", mounting.camera);
+    addPose(status, "IMU", mounting.imu);
+  });
+  const ros::WallTimer timer =
+      handle.createWallTimer(ros::WallDuration(1.0), [&](const ros::WallTimerEvent&) { updater.update(); });
+  ros::spin();
+  return 0;
+}
+
+}  // namespace
+}  // namespace stereo_nav::nodes
+
+int main(int argc, char** argv) {
+  return stereo_nav::ros_io::runNode(argc, argv, "rig_transforms", stereo_nav::nodes::run);
+}

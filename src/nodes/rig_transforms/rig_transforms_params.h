@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "stereo_nav/core/parameter_visitor.h"
+#include "stereo_nav/ros/topics.h"
+
+namespace stereo_nav::nodes {
+
+/// Parameters of rig_transforms: names of the frames; where they are is in the rig file `~rig`.
+struct RigTransformsParams {
+  std::string base_frame = ros_io::frames::kBase;
+  std::string camera_frame = ros_io::frames::kLeftOptical;
+  std::string imu_frame = ros_io::frames::kImu;
+
+  void describe(ParameterVisitor& visitor) {
+    visitor.text("base_frame", base_frame, "frame of the robot, x forward, y left, z up");
+    visitor.text("camera_frame", camera_frame, "left optical frame, x right, y down, z forward");
+    visitor.text("imu_frame", imu_frame, "frame of the IMU's messages");
+  }
+};
+
+}  // namespace stereo_nav::nodes

@@ -1,0 +1,85 @@
+// A simulated robot at real time, in place of stereo_capture and imu_bridge.
+#include <filesystem>
+#include <sstream>
+
+#include "nodes/simulator/simulator_node.h"
+#include "ros/capture_setup.h"
+#include "ros/image_proc_loader.h"
+#include "ros/node_program.h"
+#include "ros/package_files.h"
+#include "ros/parameter_server.h"
+#include "ros/rig.h"
+
+namespace stereo_nav::nodes {
+namespace {
+
+/// What of a rig file the simulated devices have: calibration and mounting.
+struct SimulatedRig {
+  sim::StereoCalibrationPair calibration;
+  Eigen::Isometry3d T_base_imu = Eigen::Isometry3d::Identity();
+};
+
+/// Of one camera of the rig file.
+auto loadCalibration(const std::string& url, const std::string& side) {
+  const std::string path = ros_io::pathOfUrl(url.empty() ? ros_io::kDefaultCalibrationUrl : url, side);
+  if (url.empty() && !std::filesystem::exists(path)) {
+    throw ParameterError("the rig file names no calibration of the " + side + " camera, and there is no " +
+                         path + "; calibrate (calibrate.launch), or give cameras." + side +
+                         ".calibration in the rig file, e.g. package://stereo_nav/config/thesis/" + side +
+                         ".yaml");
+  }
+  return sim::loadCameraCalibration(path);
+}
+
+/// The thesis' rig where `~rig` names no file; cameras sit where the scenario says then.
+SimulatedRig readRig(const ros::NodeHandle& private_node, sim::RigParams& cameras) {
+  const auto rig = private_node.param<std::string>("rig", "");
+  if (rig.empty()) return {sim::loadStereoCalibration(ros_io::thesisCalibrationFolder())};
+  ros_io::CaptureSetup setup;
+  setup.read({ros_io::rigSource(private_node, ros_io::rig_sections::kCameras)});
+  const ros_io::Mounting mounting = ros_io::loadMounting(rig);
+  cameras.camera_x_m = mounting.camera.x_m;
+  cameras.camera_y_m = mounting.camera.y_m;
+  cameras.camera_z_m = mounting.camera.z_m;
+  cameras.camera_roll_deg = mounting.camera.roll_deg;
+  cameras.camera_pitch_deg = mounting.camera.pitch_deg;
+  cameras.camera_yaw_deg = mounting.camera.yaw_deg;
+  return {{loadCalibration(setup.params.left.calibration, "left"),
+           loadCalibration(setup.params.right.calibration, "right")},
+          mounting.imu.T_base_sensor()};
+}
+
+std::vector<std::string> splitSettings(const std::string& text) {
+  std::vector<std::string> settings;
+  std::istringstream stream(text);
+  for (std::string setting; std::getline(stream, setting, ';');) settings.push_back(setting);
+  return settings;
+}
+
+/// Beside the simulator's own parameters: the files `~rig` and `~disparity_config`.
+int run() {
+  ros::NodeHandle node, private_node("~");
+  SimulatorParams params;
+  ros_io::readParameters(
+      {ros_io::serverSource(private_node, {"disparity_config", "num_worker_threads", "diagnostic_period"})},
+      params);
+  sim::Scenario scenario =
+      sim::loadScenario(ros_io::scenarioFile(params.scenario), splitSettings(params.settings));
+  const SimulatedRig rig = readRig(private_node, scenario.rig);
+  const sim::Simulation simulation(scenario, rig.calibration, static_cast<std::uint64_t>(params.seed));
+  std::unique_ptr<ros_io::ImageProcLoader> image_proc;
+  if (params.load_image_proc) {
+    image_proc = std::make_unique<ros_io::ImageProcLoader>(true, ros_io::readDisparityParams(private_node));
+  }
+  ros::AsyncSpinner spinner(1);  // for nodelets and diagnostics
+  spinner.start();
+  SimulatorNode(node, simulation, params, rig.T_base_imu).run();
+  return 0;
+}
+
+}  // namespace
+}  // namespace stereo_nav::nodes
+
+int main(int argc, char** argv) {
+  return stereo_nav::ros_io::runNode(argc, argv, "simulator", stereo_nav::nodes::run);
+}

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <dynamic_reconfigure/server.h>
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <string>
+
+#include "nodes/stereo_capture/camera_publisher.h"
+#include "nodes/stereo_capture/capture_diagnostics.h"
+#include "ros/capture_setup.h"
+#include "ros/image_proc_loader.h"
+#include "ros/problem_list.h"
+#include "sensors/camera/clock_mapping.h"
+#include "sensors/camera/stereo_camera.h"
+#include "stereo_nav/StereoCaptureConfig.h"
+
+namespace stereo_nav::nodes {
+
+/// Two cameras in, pairs of images out: camera/{left,right}/{image_raw,camera_info} and camera/sync.
+class StereoCaptureNode {
+ public:
+  /// Reads all parameters. Throws ParameterError.
+  StereoCaptureNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  ~StereoCaptureNode();
+
+ private:
+  void publish(camera::StereoImages images);
+  void publishSync(const camera::StereoImages& images, const ros::Time& left, const ros::Time& right);
+  void followSystemClock();
+  void reconfigure(const StereoCaptureConfig& config);
+  void handleTimer(const ros::WallTimerEvent&);
+  void tellCalibrationProblem(camera::Side side);
+  CameraPublisher& publisherOf(camera::Side side) {
+    return side == camera::Side::Left ? left_publisher_ : right_publisher_;
+  }
+
+  ros::NodeHandle handle_;
+  ros::NodeHandle private_handle_;
+  ros_io::CaptureSetup setup_;
+  const camera::CaptureParams& params_;  ///< of setup_
+  const std::string& frame_id_;          ///< of setup_
+  CameraPublisher left_publisher_;
+  CameraPublisher right_publisher_;
+  ros::Publisher sync_publisher_;
+  camera::ClockMapping clock_;
+  ros_io::ProblemList problems_;
+  std::unique_ptr<camera::StereoCamera> camera_;
+  std::unique_ptr<CaptureDiagnostics> diagnostics_;
+  std::unique_ptr<ros_io::ImageProcLoader> image_proc_;
+  std::unique_ptr<dynamic_reconfigure::Server<StereoCaptureConfig>> reconfigure_server_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace stereo_nav::nodes

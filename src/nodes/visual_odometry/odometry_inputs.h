@@ -1,0 +1,85 @@
+#pragma once
+
+#include <geometry_msgs/Quaternion.h>
+#include <image_transport/image_transport.h>
+#include <ros/ros.h>
+#include <sensor_msgs/Imu.h>
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "nodes/visual_odometry/health.h"
+#include "nodes/visual_odometry/odometry_session.h"
+#include "ros/inbox.h"
+#include "ros/input_monitor.h"
+#include "ros/running_clock.h"
+
+namespace stereo_nav::nodes {
+
+/// What the odometry subscribes to: put together into frames for the inbox, and watched for silence. The
+/// callbacks only queue. They and the public functions that are not marked otherwise must come from one
+/// thread.
+class OdometryInputs {
+ public:
+  /// Subscribes at once; `inbox` and `health` must live longer.
+  OdometryInputs(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                 const VisualOdometryParams& params, const ros_io::FrameSynchroniserParams& synchronisation,
+                 ros_io::Inbox& inbox, Health& health);
+
+  void setTimeout(double timeout_s) { monitor_.setTimeout(timeout_s); }
+  /// To be called a few times a second: time without messages passes only here and in the callbacks.
+  void tick() { clock_.seconds(); }
+  /// Tells `health` what is silent, does not fit together, or was dropped since the last report.
+  void report();
+
+  /// What has come beside the frames, and how many came. Thread-safe.
+  SensorSetup setup() const;
+  FrameCounts counts() const;
+
+ private:
+  void watchAll();
+  std::size_t watch(const std::string& topic, bool stamped, const std::string& remedy,
+                    std::function<unsigned int()> publishers);
+  void subscribe();
+  ros::Subscriber subscribeInfo(const std::string& topic, sensor_msgs::CameraInfoConstPtr& slot,
+                                std::size_t input);
+  void subscribeImu();
+
+  void handleLeft(const sensor_msgs::ImageConstPtr& image);
+  void handleRight(const sensor_msgs::ImageConstPtr& image);
+  void handleDisparity(const stereo_msgs::DisparityImageConstPtr& disparity);
+  void handleSync(const StereoSyncConstPtr& sync);
+  void handleImu(const sensor_msgs::ImuConstPtr& imu);
+  void handleQuaternion(const geometry_msgs::QuaternionConstPtr& quaternion);
+  void addImuSample(const ImuSample& sample, const std::string& frame_id);
+  void passOnFrames();
+  std::string newDrops();
+
+  ros::NodeHandle handle_;
+  ros::NodeHandle private_handle_;
+  VisualOdometryParams params_;
+  ros_io::Inbox& inbox_;
+  Health& health_;
+
+  ros_io::FrameSynchroniser synchroniser_;
+  ros_io::RunningClock clock_;
+  ros_io::InputMonitor monitor_;
+  std::size_t left_input_ = 0, right_input_ = 0, left_info_input_ = 0, right_info_input_ = 0,
+              disparity_input_ = 0, imu_input_ = 0;
+  bool uses_disparity_ = false;
+  std::uint64_t lefts_received_ = 0;
+  std::uint64_t imu_refused_ = 0;
+  std::uint64_t dropped_reported_ = 0;
+
+  mutable std::mutex mutex_;  ///< of the two below
+  SensorSetup setup_;
+  FrameCounts counts_;
+
+  image_transport::ImageTransport image_transport_;
+  image_transport::Subscriber left_, right_;
+  ros::Subscriber disparity_, sync_, left_info_, right_info_, imu_;
+};
+
+}  // namespace stereo_nav::nodes

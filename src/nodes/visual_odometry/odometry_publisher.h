@@ -1,0 +1,52 @@
+#pragma once
+
+#include <geometry_msgs/PoseWithCovariance.h>
+#include <image_transport/image_transport.h>
+#include <nav_msgs/Path.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <cstdint>
+#include <string>
+
+#include "nodes/visual_odometry/odometry_session.h"
+#include "stereo_nav/VoStatus.h"
+
+namespace stereo_nav::nodes {
+
+/// Counts of the whole run, for vo/status.
+struct FrameCounts {
+  std::uint64_t frames = 0;
+  std::uint64_t dropped = 0;
+  std::uint64_t lost = 0;
+};
+
+/// Turns what the odometry made of a frame into messages. Pictures, cloud and path are made only for
+/// subscribers.
+class OdometryPublisher {
+ public:
+  OdometryPublisher(ros::NodeHandle& handle, const VisualOdometryParams& params);
+
+  void publish(const ros_io::FrameMessages& frame, const SessionOutput& output, const FrameCounts& counts);
+  void forgetPath() { path_.poses.clear(); }
+  void setLive(bool publish_tf, double path_spacing_m);
+
+ private:
+  void publishOdometry(const ros_io::FrameMessages& frame, const estimation::BaseEstimate& base);
+  void publishPath(const std_msgs::Header& header, const geometry_msgs::Pose& pose);
+  void publishStatus(const ros_io::FrameMessages& frame, const SessionOutput& output,
+                     const FrameCounts& counts);
+  void publishViews(const ros_io::FrameMessages& frame, const SessionOutput& output);
+
+  VisualOdometryParams params_;
+  ros::Publisher odometry_publisher_;
+  ros::Publisher path_publisher_;
+  ros::Publisher status_publisher_;
+  ros::Publisher features_publisher_;
+  image_transport::ImageTransport image_transport_;
+  image_transport::Publisher debug_publisher_;
+  tf2_ros::TransformBroadcaster tf_;
+  nav_msgs::Path path_;
+};
+
+}  // namespace stereo_nav::nodes

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <sensor_msgs/CameraInfo.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/rotation_history.h"
+#include "nodes/visual_odometry/visual_odometry_params.h"
+#include "ros/inbox.h"
+#include "stereo_nav/odometry/method/odometry_config.h"
+#include "vision/camera_order.h"
+
+namespace stereo_nav::nodes {
+
+/// Transform that takes coordinates of `source` into `target`; nothing, and why in `error`, while tf does not
+/// know it.
+using TransformLookup = std::function<std::optional<Eigen::Isometry3d>(
+    const std::string& target, const std::string& source, std::string& error)>;
+
+/// What came in beside the frames.
+struct SensorSetup {
+  sensor_msgs::CameraInfoConstPtr left_info;
+  sensor_msgs::CameraInfoConstPtr right_info;
+  std::string imu_frame;  ///< empty while no IMU message has come
+};
+
+/// What the node publishes of one frame.
+struct SessionOutput {
+  bool processed = false;                     ///< false: there is no odometry of this frame; `errors` say why
+  std::map<std::string, std::string> errors;  ///< by kind
+  std::map<std::string, std::string> warnings;  ///< by kind; the odometry runs, but not as it should
+  std::vector<std::string> notes;               ///< what happened as it should
+  std::vector<std::string> announcements;       ///< what the user should know of: restarts, changes
+  odometry::StereoFrame images;
+  odometry::FrameResult result;
+  estimation::BaseEstimate base;
+};
+
+/// The odometry of a node from messages to the pose of the base: waits until calibration and mounting are
+/// known, refuses what cannot be right, starts anew when the clock jumps back or the cameras change. No
+/// topics in here; not thread-safe.
+class OdometrySession {
+ public:
+  OdometrySession(const VisualOdometryParams& params, const odometry::OdometryConfig& config,
+                  TransformLookup lookup);
+
+  /// `live`: stamps are those of a running clock, not of a replay. Decides whether the pose is kept when they
+  /// jump back: a corrected clock must not move the robot, a bag that starts again begins at the origin.
+  SessionOutput process(const ros_io::Inbox::Work& work, const SensorSetup& setup, bool live);
+
+  /// For the frames to come.
+  void setUncertainty(const estimation::UncertaintyParams& uncertainty);
+
+  /// Forgets everything but the mounting; the next frame is the origin.
+  void reset();
+  /// False while there is no odometry yet.
+  bool setPose(const Eigen::Isometry3d& T_odom_base, const Matrix6d& covariance);
+
+  std::uint64_t framesProcessed() const { return frames_processed_; }
+  std::uint64_t framesLost() const { return frames_lost_; }
+
+ private:
+  bool prepare(const ros_io::FrameMessages& frame, const SensorSetup& setup, SessionOutput& output);
+  bool prepareCameras(const ros_io::FrameMessages& frame, const SensorSetup& setup, SessionOutput& output);
+  bool prepareImu(const SensorSetup& setup, SessionOutput& output);
+  void makeOdometry(SessionOutput& output);
+  void startAgain(const Eigen::Isometry3d& T_odom_base, const Matrix6d& covariance);
+  void restartAfterJump(const ros_io::FrameMessages& frame, bool live, SessionOutput& output);
+  void level(double time_s, SessionOutput& output);
+  bool readImages(const ros_io::FrameMessages& frame, SessionOutput& output) const;
+  void checkCameraOrder(SessionOutput& output);
+
+  VisualOdometryParams params_;
+  odometry::OdometryConfig config_;
+  TransformLookup lookup_;
+
+  // What the odometry is made for; any change makes a new one.
+  sensor_msgs::CameraInfoConstPtr left_info_;
+  sensor_msgs::CameraInfoConstPtr right_info_;
+  std::string camera_frame_;
+  std::string imu_frame_;  ///< empty while the IMU is not used
+  vision::StereoCalibration calibration_;
+  Eigen::Isometry3d T_base_camera_ = Eigen::Isometry3d::Identity();
+  Eigen::Matrix3d R_base_imu_ = Eigen::Matrix3d::Identity();
+  std::unique_ptr<odometry::Odometry> odometry_;  ///< null until all of it is known
+
+  std::optional<estimation::BaseOdometry> base_;
+  RotationHistory imu_history_;  ///< for levelling
+  bool level_next_ = true;
+  std::optional<vision::CameraOrderCheck> camera_order_;
+  double camera_order_checked_s_ = 0.0;
+  std::uint64_t frames_processed_ = 0;
+  std::uint64_t frames_lost_ = 0;
+};
+
+}  // namespace stereo_nav::nodes

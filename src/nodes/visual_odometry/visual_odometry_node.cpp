@@ -1,0 +1,184 @@
+#include "nodes/visual_odometry/visual_odometry_node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ros/parameter_server.h"
+#include "stereo_nav/ros/conversions.h"
+
+namespace stereo_nav::nodes {
+namespace {
+
+/// Names in the private namespace that belong to others.
+const std::set<std::string> kForeignParameters = {"vo", "image_transport", "diagnostic_period"};
+
+constexpr double kTimerPeriod_s = 0.25;
+constexpr unsigned int kTicksPerReport = 4;
+
+VisualOdometryParams readNodeParams(const ros::NodeHandle& private_handle) {
+  VisualOdometryParams params;
+  ros_io::readParameters({ros_io::serverSource(private_handle, kForeignParameters)}, params);
+  params.waiting.wait_for_imu = params.imu != VisualOdometryParams::Imu::kNone;
+  return params;
+}
+
+odometry::OdometryConfig readOdometryConfig(const ros::NodeHandle& private_handle) {
+  odometry::OdometryConfig config;
+  ros_io::readParameters({ros_io::fileSource(private_handle, "config"),
+                          ros_io::serverSource(ros::NodeHandle(private_handle, "vo"))},
+                         config);
+  return config;
+}
+
+ros_io::FrameSynchroniserParams synchroniserParams(ros_io::FrameSynchroniserParams params,
+                                                   const odometry::OdometryConfig& config) {
+  params.disparity = config.disparityUse();
+  return params;
+}
+
+/// Waits a moment, once: transforms and first images of a bag come together, and the first frame is the
+/// origin.
+TransformLookup lookupIn(tf2_ros::Buffer& buffer) {
+  constexpr int kTries = 20;
+  return [&buffer, tries_left = kTries](const std::string& target, const std::string& source,
+                                        std::string& error) mutable -> std::optional<Eigen::Isometry3d> {
+    for (; tries_left > 0 && !buffer.canTransform(target, source, ros::Time(0)); --tries_left) {
+      ros::WallDuration(0.01).sleep();  // the ROS clock may stand still
+    }
+    try {
+      return ros_io::toIsometry(buffer.lookupTransform(target, source, ros::Time(0)).transform);
+    } catch (const tf2::TransformException& exception) {
+      error = exception.what();
+      return std::nullopt;
+    }
+  };
+}
+
+/// Whether stamps follow the running clock of this host, i.e. are not those of a replay.
+bool isLive(const ros::Time& stamp) {
+  constexpr double kLive_s = 5.0;
+  return !ros::Time::isSimTime() && std::abs((ros::Time::now() - stamp).toSec()) < kLive_s;
+}
+
+}  // namespace
+
+VisualOdometryNode::VisualOdometryNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                                       const std::string& name)
+    : handle_(handle),
+      private_handle_(private_handle),
+      name_(name),
+      params_(readNodeParams(private_handle_)),
+      tf_listener_(tf_buffer_),
+      health_(handle_, private_handle_, name),
+      inbox_(params_.waiting),
+      session_(params_, readOdometryConfig(private_handle_), lookupIn(tf_buffer_)),
+      publisher_(handle_, params_),
+      disparity_view_(handle_),
+      inputs_(handle_, private_handle_, params_,
+              synchroniserParams(params_.synchronisation, readOdometryConfig(private_handle_)), inbox_,
+              health_) {
+  worker_ = std::thread(&VisualOdometryNode::work, this);
+  reset_service_ = handle_.advertiseService("vo/reset", &VisualOdometryNode::handleReset, this);
+  set_pose_service_ = handle_.advertiseService("vo/set_pose", &VisualOdometryNode::handleSetPose, this);
+  offerReconfiguration();
+  timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s), &VisualOdometryNode::handleTimer, this);
+}
+
+VisualOdometryNode::~VisualOdometryNode() {
+  inbox_.stop();
+  worker_.join();
+}
+
+/// Both call back at once with the parameters as they are, which they take from the server.
+void VisualOdometryNode::offerReconfiguration() {
+  ros_io::writeParameters(private_handle_, params_);
+  reconfigure_server_ = std::make_unique<dynamic_reconfigure::Server<VisualOdometryConfig>>(private_handle_);
+  reconfigure_server_->setCallback([this](const VisualOdometryConfig& config, std::uint32_t) {
+    inputs_.setTimeout(config.input_timeout_s);
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    publisher_.setLive(config.publish_tf, config.path_spacing_m);
+  });
+  uncertainty_server_ = std::make_unique<dynamic_reconfigure::Server<UncertaintyConfig>>(
+      ros::NodeHandle(private_handle_, "uncertainty"));
+  uncertainty_server_->setCallback([this](const UncertaintyConfig& config, std::uint32_t) {
+    estimation::UncertaintyParams uncertainty;
+    uncertainty.min_translation_sigma_m = config.min_translation_sigma_m;
+    uncertainty.min_rotation_sigma_rad = config.min_rotation_sigma_rad;
+    uncertainty.lost_speed_m_s = config.lost_speed_m_s;
+    uncertainty.lost_turn_rate_rad_s = config.lost_turn_rate_rad_s;
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    session_.setUncertainty(uncertainty);
+  });
+}
+
+bool VisualOdometryNode::handleReset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  session_.reset();
+  publisher_.forgetPath();
+  ROS_INFO_STREAM(name_ << ": reset on request; the next frame is the origin");
+  return true;
+}
+
+bool VisualOdometryNode::handleSetPose(SetPose::Request& request, SetPose::Response& response) {
+  const auto& pose = request.pose.pose.pose;
+  const Eigen::Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
+  const Eigen::Vector3d position(pose.position.x, pose.position.y, pose.position.z);
+  const Matrix6d covariance =
+      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(request.pose.pose.covariance.data());
+  constexpr double kUnitNorm = 0.01;
+  const std::string& frame = request.pose.header.frame_id;
+  if (!frame.empty() && frame != params_.odom_frame) {
+    response.message = "the pose is in frame '" + frame + "', it must be in '" + params_.odom_frame + "'";
+  } else if (!position.allFinite() || !covariance.allFinite() || !(std::abs(q.norm() - 1.0) < kUnitNorm)) {
+    response.message = "position and covariance must be numbers, the orientation a quaternion of norm 1";
+  } else {
+    Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
+    T_odom_base.linear() = q.normalized().toRotationMatrix();
+    T_odom_base.translation() = position;
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    response.success = static_cast<std::uint8_t>(session_.setPose(T_odom_base, covariance));
+    if (response.success == 0) response.message = "no odometry yet: it still waits for its inputs";
+  }
+  if (response.success == 0) ROS_ERROR_STREAM(name_ << ": vo/set_pose refused: " << response.message);
+  return true;
+}
+
+void VisualOdometryNode::handleTimer(const ros::WallTimerEvent&) {
+  inputs_.tick();
+  if (++ticks_ % kTicksPerReport != 0) return;
+  inputs_.report();
+  health_.publishDiagnostics();
+}
+
+void VisualOdometryNode::work() {
+  while (const auto work = inbox_.waitAndTake()) {
+    try {
+      processFrame(*work);
+    } catch (const std::exception& error) {
+      // One frame must not end the process, least of all a manager that other nodelets live in.
+      ROS_ERROR_STREAM(name_ << ": frame " << work->frame.left_stamp << " given up: " << error.what());
+    }
+  }
+}
+
+void VisualOdometryNode::processFrame(const ros_io::Inbox::Work& work) {
+  FrameCounts counts = inputs_.counts();
+  SessionOutput output;
+  {
+    const std::lock_guard<std::mutex> lock(session_mutex_);
+    output = session_.process(work, inputs_.setup(), isLive(work.frame.left_stamp));
+    counts.lost = session_.framesLost();
+    if (work.frame.after_jump) publisher_.forgetPath();
+    publisher_.publish(work.frame, output, counts);
+  }
+  const std::chrono::duration<double, std::milli> latency =
+      std::chrono::steady_clock::now() - work.frame.arrival;
+  for (const auto& note : output.notes) ROS_INFO_STREAM(name_ << ": " << note);
+  for (const auto& announcement : output.announcements) ROS_WARN_STREAM(name_ << ": " << announcement);
+  health_.replace("setup: ", true, output.errors);
+  health_.replace("quality: ", false, output.warnings);
+  health_.frameDone(output, counts, latency.count());
+}
+
+}  // namespace stereo_nav::nodes

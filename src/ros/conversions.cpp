@@ -1,0 +1,187 @@
+#include "stereo_nav/ros/conversions.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <image_geometry/pinhole_camera_model.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+
+#include "stereo_nav/core/input_error.h"
+
+namespace stereo_nav::ros_io {
+namespace {
+
+namespace enc = sensor_msgs::image_encodings;
+
+bool isSupported(const std::string& encoding) {
+  static const std::vector<std::string> supported = {
+      enc::MONO8,       enc::MONO16,      enc::RGB8,        enc::BGR8,        enc::RGBA8, enc::BGRA8,
+      enc::BAYER_RGGB8, enc::BAYER_BGGR8, enc::BAYER_GBRG8, enc::BAYER_GRBG8, enc::YUV422};
+  return std::find(supported.begin(), supported.end(), encoding) != supported.end();
+}
+
+void checkFinite(const sensor_msgs::CameraInfo& info, const char* side) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (std::all_of(info.K.begin(), info.K.end(), finite) &&
+      std::all_of(info.D.begin(), info.D.end(), finite) &&
+      std::all_of(info.R.begin(), info.R.end(), finite) &&
+      std::all_of(info.P.begin(), info.P.end(), finite)) {
+    return;
+  }
+  throw InputError(std::string("the ") + side +
+                   " camera_info holds a NaN or an infinity; calibrate the pair again");
+}
+
+void checkUsable(const sensor_msgs::CameraInfo& info, const char* side) {
+  checkFinite(info, side);
+  if (info.K[0] == 0.0 || info.P[0] == 0.0) {
+    throw InputError(
+        std::string("the ") + side +
+        " camera is not calibrated (K or P of its camera_info is zero); was the calibration file found?");
+  }
+}
+
+std::string sizeOf(const sensor_msgs::CameraInfo& info) {
+  return std::to_string(info.width) + "x" + std::to_string(info.height);
+}
+
+}  // namespace
+
+vision::StereoCalibration toCalibration(const sensor_msgs::CameraInfo& left,
+                                        const sensor_msgs::CameraInfo& right) {
+  checkUsable(left, "left");
+  checkUsable(right, "right");
+  if (left.width != right.width || left.height != right.height) {
+    throw InputError("left camera_info is for " + sizeOf(left) + ", right for " + sizeOf(right) +
+                     "; both cameras must deliver and be calibrated at one size");
+  }
+  if (left.header.frame_id != right.header.frame_id) {
+    throw InputError("frame ids differ: left '" + left.header.frame_id + "', right '" +
+                     right.header.frame_id +
+                     "'; both images and camera_infos must carry the left optical frame");
+  }
+  vision::StereoCalibration calibration;
+  calibration.fx = right.P[0];
+  calibration.fy = right.P[5];
+  calibration.cx = left.P[2];
+  calibration.cy = right.P[6];
+  calibration.right_cx = right.P[2];
+  calibration.baseline_m = -right.P[3] / right.P[0];
+  calibration.width = static_cast<int>(left.width);
+  calibration.height = static_cast<int>(left.height);
+  if (left.P[3] != 0.0 || calibration.baseline_m < 0.0) {
+    std::ostringstream message;
+    message << "P[3] is " << left.P[3] << " in the left camera_info and " << right.P[3]
+            << " in the right one; it must be 0 and -fx * baseline. Are left and right swapped?";
+    throw InputError(message.str());
+  }
+  if (calibration.baseline_m == 0.0) {
+    throw InputError(
+        "camera_info without baseline: P[3] of the right camera is 0. The cameras were calibrated one by "
+        "one; run a "
+        "stereo calibration");
+  }
+  if (std::abs(left.P[0] - right.P[0]) > 1e-6 * left.P[0] ||
+      std::abs(left.P[5] - right.P[5]) > 1e-6 * left.P[5] ||
+      std::abs(left.P[6] - right.P[6]) > 1e-6 * std::abs(left.P[6])) {
+    throw InputError(
+        "the projection matrices P of the two camera_infos differ in fx, fy or cy; they are not from one "
+        "stereo "
+        "calibration");
+  }
+  calibration.validate();
+  return calibration;
+}
+
+cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image) {
+  if (!isSupported(image->encoding)) {
+    throw InputError(
+        "image encoding '" + image->encoding +
+        "' is not supported; record mono8, mono16, rgb8, bgr8, rgba8, bgra8, an 8-bit Bayer pattern or "
+        "yuv422");
+  }
+  const auto pixel_bytes = static_cast<std::size_t>(enc::numChannels(image->encoding)) *
+                           static_cast<std::size_t>(enc::bitDepth(image->encoding)) / 8;
+  const bool complete = image->width > 0 && image->height > 0 && image->step >= image->width * pixel_bytes &&
+                        image->data.size() == static_cast<std::size_t>(image->step) * image->height;
+  if (!complete) {
+    std::ostringstream message;
+    message << "image of " << image->width << "x" << image->height << " '" << image->encoding << "', step "
+            << image->step << " has " << image->data.size() << " bytes; the message is damaged";
+    throw InputError(message.str());
+  }
+  try {
+    if (enc::isMono(image->encoding)) return cv_bridge::toCvShare(image, enc::MONO8)->image;
+    return cv_bridge::toCvCopy(image, enc::MONO8)->image;
+  } catch (const cv_bridge::Exception& error) {
+    throw InputError(std::string("image cannot be converted to grey: ") + error.what());
+  }
+}
+
+cv::Mat rawRows(const sensor_msgs::CameraInfo& info) {
+  const bool known = info.distortion_model.empty() || info.distortion_model == "plumb_bob" ||
+                     info.distortion_model == "rational_polynomial";
+  const bool complete = info.D.empty() || info.D.size() == 4 || info.D.size() == 5 || info.D.size() == 8;
+  if (!known || !complete) return {};
+  image_geometry::PinholeCameraModel camera;
+  camera.fromCameraInfo(info);
+  cv::Mat columns, rows;
+  cv::initUndistortRectifyMap(camera.intrinsicMatrix(), camera.distortionCoeffs(), camera.rotationMatrix(),
+                              camera.projectionMatrix(), camera.fullResolution(), CV_32FC1, columns, rows);
+  return rows;
+}
+
+cv::Mat toDisparityMap(const stereo_msgs::DisparityImage& message,
+                       const vision::StereoCalibration& calibration) {
+  const sensor_msgs::Image& image = message.image;
+  const bool fits = image.encoding == enc::TYPE_32FC1 && static_cast<int>(image.width) == calibration.width &&
+                    static_cast<int>(image.height) == calibration.height &&
+                    image.step >= image.width * sizeof(float) &&
+                    image.data.size() >= static_cast<std::size_t>(image.step) * image.height;
+  if (!fits) {
+    std::ostringstream text;
+    text << "disparity is " << image.width << "x" << image.height << " '" << image.encoding << "', expected "
+         << calibration.width << "x" << calibration.height << " '32FC1'";
+    throw InputError(text.str());
+  }
+  // The Mat only reads; OpenCV has no constructor for constant data.
+  const cv::Mat shared(static_cast<int>(image.height), static_cast<int>(image.width), CV_32FC1,
+                       const_cast<unsigned char*>(image.data.data()), image.step);
+  cv::Mat map = shared.clone();
+  const double smallest = message.min_disparity - (calibration.cx - calibration.right_cx);
+  constexpr double kHalfStep = 0.5;  // the marker lies a whole pixel below
+  map.setTo(-1.0F, map < smallest - kHalfStep);
+  return map;
+}
+
+ImuSample toImuSample(const sensor_msgs::Imu& imu) {
+  ImuSample sample;
+  sample.time_s = imu.header.stamp.toSec();
+  const auto& q = imu.orientation;
+  const bool has_orientation =
+      imu.orientation_covariance[0] != -1.0 && !(q.w == 0.0 && q.x == 0.0 && q.y == 0.0 && q.z == 0.0);
+  if (has_orientation) sample.q_world_imu = Eigen::Quaterniond(q.w, q.x, q.y, q.z);
+  if (imu.angular_velocity_covariance[0] != -1.0) {
+    sample.angular_velocity =
+        Eigen::Vector3d(imu.angular_velocity.x, imu.angular_velocity.y, imu.angular_velocity.z);
+  }
+  if (imu.linear_acceleration_covariance[0] != -1.0) {
+    sample.linear_acceleration =
+        Eigen::Vector3d(imu.linear_acceleration.x, imu.linear_acceleration.y, imu.linear_acceleration.z);
+  }
+  return sample;
+}
+
+Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
+  const auto& q = transform.rotation;
+  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
+  isometry.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
+  isometry.translation() << transform.translation.x, transform.translation.y, transform.translation.z;
+  return isometry;
+}
+
+}  // namespace stereo_nav::ros_io

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <sensor_msgs/Image.h>
+#include <stereo_msgs/DisparityImage.h>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "ros/stamp_buffer.h"
+#include "stereo_nav/StereoSync.h"
+#include "stereo_nav/core/parameter_visitor.h"
+#include "stereo_nav/odometry/common/odometry.h"
+
+namespace stereo_nav::ros_io {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+/// The messages that make up one stereo frame.
+struct FrameMessages {
+  sensor_msgs::ImageConstPtr left;
+  sensor_msgs::ImageConstPtr right;
+  stereo_msgs::DisparityImageConstPtr disparity;  ///< null where the odometry uses none, or none has come yet
+  ros::Time left_stamp;                           ///< the left image's
+  ros::Time right_stamp;                          ///< true exposure time: from camera/sync where there is one
+  double rolling_shutter_s = 0.0;                 ///< time from the first row of an image to the last
+  SteadyTime arrival;                             ///< when the left image reached the node
+  bool after_jump = false;                        ///< first frame after the stamps jumped back
+};
+
+struct FrameSynchroniserParams {
+  int queue_size = 10;
+  double max_skew_s = 0.06;
+  double rolling_shutter_ms = 0.0;
+  odometry::DisparityUse disparity =
+      odometry::DisparityUse::kMatched;  ///< follows from the odometry's configuration, no parameter
+
+  void describe(ParameterVisitor& visitor);
+};
+
+/// Puts stereo frames together. What shares the left image's stamp (disparity, camera/sync) is matched
+/// exactly. The right image is the one that camera/sync names; without camera/sync it is the one with the
+/// nearest stamp, taken as soon as no later one can be nearer: with equal stamps, or a skew below half the
+/// right camera's period, at once. (message_filters' ApproximateTime lets a pair out only when the next one
+/// arrives: a whole frame of latency.)
+///
+/// Drop rule: a complete frame overtakes older incomplete ones (topics keep their order, so those will not be
+/// completed), and of more than `queue_size` waiting left images the oldest gives way. All are counted.
+class FrameSynchroniser {
+ public:
+  explicit FrameSynchroniser(const FrameSynchroniserParams& params);
+
+  void addLeft(const sensor_msgs::ImageConstPtr& image, SteadyTime arrival);
+  void addRight(const sensor_msgs::ImageConstPtr& image);
+  void addDisparity(const stereo_msgs::DisparityImageConstPtr& disparity);
+  void addSync(const StereoSyncConstPtr& sync);
+
+  /// The next complete frame, in order of time. To be called until empty after each message.
+  std::optional<FrameMessages> take();
+
+  /// Left images that never became a frame.
+  std::uint64_t dropped() const { return lefts_.dropped() + incomplete_; }
+  ros::Time newestLeft() const { return lefts_.newest(); }
+  ros::Time newestRight() const { return rights_.newest(); }
+  ros::Time newestDisparity() const { return disparities_.newest(); }
+
+ private:
+  struct Left {
+    sensor_msgs::ImageConstPtr image;
+    SteadyTime arrival;
+  };
+  enum class Match { kFound, kWaiting, kHopeless };
+
+  Match matchRight(const ros::Time& left_stamp, FrameMessages& frame) const;
+  Match matchNearestRight(const ros::Time& left_stamp, FrameMessages& frame) const;
+  bool matchDisparity(const ros::Time& left_stamp, FrameMessages& frame) const;
+  void forgetUpTo(const FrameMessages& frame);
+
+  FrameSynchroniserParams params_;
+  StampBuffer<Left> lefts_;
+  StampBuffer<sensor_msgs::ImageConstPtr> rights_;
+  StampBuffer<stereo_msgs::DisparityImageConstPtr> disparities_;
+  StampBuffer<StereoSyncConstPtr> syncs_;
+  double right_period_s_ = 0.0;  ///< shortest recent interval between right images; 0 while unknown
+  double rolling_shutter_s_;     ///< camera/sync's last, the parameter before there is one
+  bool jumped_ = false;
+  std::uint64_t incomplete_ = 0;
+};
+
+}  // namespace stereo_nav::ros_io

@@ -1,0 +1,84 @@
+#include "ros/image_proc_loader.h"
+
+#include <ros/ros.h>
+
+#include <stdexcept>
+
+#include "ros/parameter_server.h"
+#include "ros/rig.h"
+
+namespace stereo_nav::ros_io {
+namespace {
+
+/// More threads than cores: image_proc/debayer queues a single image and loses it while all are busy with
+/// disparity.
+constexpr int kThreads = 8;
+/// The nodelets' default of 5 loses images on a busy moment.
+constexpr int kQueue = 20;
+
+/// To be set before the loader reads it.
+bool setDefaultThreads() {
+  const ros::NodeHandle private_handle("~");
+  if (!private_handle.hasParam("num_worker_threads")) private_handle.setParam("num_worker_threads", kThreads);
+  return true;
+}
+
+std::string resolve(const std::string& topic) {
+  return ros::names::resolve(topic);
+}
+
+}  // namespace
+
+ros_io::DisparityParams readDisparityParams(const ros::NodeHandle& private_handle) {
+  ros_io::DisparityParams params;
+  ros_io::readParameters({ros_io::fileSource(private_handle, "disparity_config"),
+                          ros_io::rigSource(private_handle, ros_io::rig_sections::kDisparity)},
+                         params);
+  return params;
+}
+
+ImageProcLoader::ImageProcLoader(bool exact_stamps, const ros_io::DisparityParams& disparity_params)
+    : loader_(setDefaultThreads()) {
+  loadCamera("left");
+  loadCamera("right");
+  const ros::NodeHandle disparity(ros::this_node::getName() + "_disparity");
+  ros_io::writeParameters(disparity, disparity_params);
+  disparity.setParam("approximate_sync", !exact_stamps);
+  nodelet::M_string remappings = {{"disparity", resolve("camera/disparity")}};
+  for (const std::string side : {"left", "right"}) {
+    for (const std::string topic : {"image_rect", "camera_info"}) {
+      remappings[side + "/" + topic] = resolve("camera/" + side + "/" + topic);
+    }
+  }
+  load("_disparity", "stereo_image_proc/disparity", remappings);
+}
+
+void ImageProcLoader::loadCamera(const std::string& side) {
+  const std::string camera = "camera/" + side + "/";
+  load("_debayer_" + side, "image_proc/debayer",
+       {{"image_raw", resolve(camera + "image_raw")},
+        {"image_mono", resolve(camera + "image_mono")},
+        {"image_color", resolve(camera + "image_color")}});
+  load("_rectify_" + side, "image_proc/rectify",
+       {{"image_mono", resolve(camera + "image_mono")},
+        {"camera_info", resolve(camera + "camera_info")},
+        {"image_rect", resolve(camera + "image_rect")}});
+  load("_rectify_color_" + side, "image_proc/rectify",
+       {{"image_mono", resolve(camera + "image_color")},
+        {"camera_info", resolve(camera + "camera_info")},
+        {"image_rect", resolve(camera + "image_rect_color")}});
+}
+
+void ImageProcLoader::load(const std::string& suffix, const std::string& type,
+                           const nodelet::M_string& remappings) {
+  const std::string name = ros::this_node::getName() + suffix;
+  const ros::NodeHandle parameters(name);
+  if (!parameters.hasParam("queue_size")) parameters.setParam("queue_size", kQueue);
+  if (loader_.load(name, type, remappings, {})) return;
+  throw std::runtime_error(
+      "the nodelet " + type +
+      " cannot be loaded (the lines above say why); install image_proc and stereo_image_proc, or "
+      "run without: _load_image_proc:=false");
+}
+
+}  // namespace stereo_nav::ros_io

@@ -1,0 +1,281 @@
+#include "stereo_nav/ros/recording.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Quaternion.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/view.h>
+#include <tf2/exceptions.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/ros/topics.h"
+
+namespace stereo_nav::ros_io {
+namespace {
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+StampedPose toStampedPose(const ros::Time& stamp, const geometry_msgs::Pose& pose) {
+  geometry_msgs::Transform transform;
+  transform.translation.x = pose.position.x;
+  transform.translation.y = pose.position.y;
+  transform.translation.z = pose.position.z;
+  transform.rotation = pose.orientation;
+  return {stamp.toSec(), toIsometry(transform)};
+}
+
+void checkFinite(const ImuSample& sample, const std::string& topic) {
+  if (sample.isFinite()) return;
+  std::ostringstream message;
+  message.precision(15);
+  message
+      << topic << " holds a NaN or an infinity at t = " << sample.time_s
+      << " s; the IMU driver is at fault: repair the recording, or filter the topic out with `rosbag filter`";
+  throw InputError(message.str());
+}
+
+}  // namespace
+
+Recording::Recording(const std::string& path, const RecordingOptions& options) : path_(path) {
+  try {
+    bag_.open(path, rosbag::bagmode::Read);
+    findTopics();
+    readMessages();
+    readImu();
+    readTransforms();
+    pairImages(options);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw InputError(path + ": the recording was cut off (no index); run `rosbag reindex` on it");
+  } catch (const rosbag::BagException& error) {
+    throw InputError(path + ": cannot be read as a bag: " + error.what());
+  } catch (const ros::Exception& error) {
+    throw InputError(path + ": damaged message: " + error.what());
+  }
+}
+
+std::string Recording::topicList() const {
+  std::string list;
+  for (const std::string& topic : all_topics_) list += (list.empty() ? "" : ", ") + topic;
+  return list.empty() ? "nothing" : list;
+}
+
+std::optional<std::string> Recording::find(const std::string& relative_name) const {
+  for (const std::string& topic : all_topics_) {
+    if (topic == relative_name || endsWith(topic, "/" + relative_name)) return topic;
+  }
+  return std::nullopt;
+}
+
+std::string Recording::require(const std::string& relative_name) const {
+  const auto topic = find(relative_name);
+  if (topic) return *topic;
+  throw InputError(path_ + ": no topic " + relative_name + "; the bag holds " + topicList() +
+                   ". Record both cameras' image_raw and camera_info");
+}
+
+void Recording::findTopics() {
+  std::set<std::string> names;
+  rosbag::View view(bag_);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) names.insert(connection->topic);
+  all_topics_.assign(names.begin(), names.end());
+  topics_.left = require(topics::kLeftImage);
+  topics_.right = require(topics::kRightImage);
+  topics_.left_info = require(topics::kLeftInfo);
+  topics_.right_info = require(topics::kRightInfo);
+  topics_.sync = find(topics::kSync);
+  topics_.imu = find(topics::kImu);
+  topics_.imu_quat = find(topics::kImuQuaternion);
+}
+
+sensor_msgs::CameraInfo Recording::firstInfo(const std::string& topic) const {
+  rosbag::View view(bag_, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& message : view) {
+    if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) return *info;
+  }
+  throw InputError(path_ + ": " + topic + " holds no sensor_msgs/CameraInfo");
+}
+
+void Recording::readMessages() {
+  left_info_ = firstInfo(topics_.left_info);
+  right_info_ = firstInfo(topics_.right_info);
+  rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
+  for (const rosbag::MessageInstance& message : view) {
+    const auto image = message.instantiate<sensor_msgs::Image>();
+    if (!image) {
+      throw InputError(path_ + ": " + message.getTopic() + " is " + message.getDataType() +
+                       ", expected sensor_msgs/Image; decompress the recording first");
+    }
+    (message.getTopic() == topics_.left ? left_stamps_ : right_stamps_).push_back(image->header.stamp);
+  }
+  if (left_stamps_.empty() || right_stamps_.empty()) {
+    throw InputError(path_ + ": " + std::to_string(left_stamps_.size()) + " left and " +
+                     std::to_string(right_stamps_.size()) + " right images; both cameras are needed");
+  }
+}
+
+void Recording::readImu() {
+  if (!topics_.imu && !topics_.imu_quat) return;
+  const std::string topic = topics_.imu ? *topics_.imu : *topics_.imu_quat;
+  rosbag::View view(bag_, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& message : view) {
+    ImuSample sample;
+    if (const auto imu = message.instantiate<sensor_msgs::Imu>()) {
+      sample = toImuSample(*imu);
+      imu_frame_ = withoutSlash(imu->header.frame_id);
+    } else if (const auto q = message.instantiate<geometry_msgs::Quaternion>()) {
+      // The thesis' topic has no header: the time of arrival is all there is.
+      sample.time_s = message.getTime().toSec();
+      sample.q_world_imu = Eigen::Quaterniond(q->w, q->x, q->y, q->z);
+    } else {
+      throw InputError(path_ + ": " + topic + " is " + message.getDataType() +
+                       ", expected sensor_msgs/Imu or geometry_msgs/Quaternion");
+    }
+    checkFinite(sample, topic);
+    imu_.push_back(sample);
+  }
+  std::stable_sort(imu_.begin(), imu_.end(),
+                   [](const ImuSample& a, const ImuSample& b) { return a.time_s < b.time_s; });
+}
+
+void Recording::readTransforms() {
+  rosbag::View view(bag_, rosbag::TypeQuery("tf2_msgs/TFMessage"));
+  for (const rosbag::MessageInstance& message : view) {
+    if (!endsWith(message.getTopic(), topics::kTfStatic)) continue;
+    const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
+    if (!transforms) continue;
+    for (geometry_msgs::TransformStamped transform : transforms->transforms) {
+      transform.header.frame_id = withoutSlash(transform.header.frame_id);
+      transform.child_frame_id = withoutSlash(transform.child_frame_id);
+      transforms_.setTransform(transform, path_, true);
+    }
+  }
+}
+
+void Recording::pairImages(const RecordingOptions& options) {
+  std::vector<StereoSync> sync;
+  if (topics_.sync) {
+    rosbag::View view(bag_, rosbag::TopicQuery(*topics_.sync));
+    for (const rosbag::MessageInstance& message : view) {
+      const auto pair = message.instantiate<StereoSync>();
+      if (!pair) {
+        throw InputError(
+            path_ + ": " + *topics_.sync + " is " + message.getDataType() +
+            " of another version of stereo_nav; leave the topic out (rosbag filter IN.bag "
+            "OUT.bag \"topic != '" +
+            *topics_.sync +
+            "'\"): the images' own stamps pair them then, right for cameras that were synchronised");
+      }
+      sync.push_back(*pair);
+    }
+  }
+  std::sort(left_stamps_.begin(), left_stamps_.end());
+  std::sort(right_stamps_.begin(), right_stamps_.end());
+  pairs_ = pairStamps(left_stamps_, right_stamps_, sync);
+  unpaired_images_ = left_stamps_.size() + right_stamps_.size() - 2 * pairs_.size();
+  if (pairs_.empty()) {
+    std::ostringstream message;
+    message.precision(15);
+    message << path_ << ": no left image has a right one: left stamps begin at "
+            << left_stamps_.front().toSec() << " s, right ones at " << right_stamps_.front().toSec()
+            << " s; are the cameras stamped by one clock?";
+    throw InputError(message.str());
+  }
+  for (StampPair& pair : pairs_) {
+    pair.rolling_shutter_s = options.rolling_shutter_s.value_or(pair.rolling_shutter_s);
+  }
+  const double from_s = left_stamps_.front().toSec() + options.start_s;
+  const double to_s = from_s + options.duration_s;
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(),
+                              [&](const StampPair& pair) {
+                                return pair.left_time_s < from_s || pair.left_time_s > to_s;
+                              }),
+               pairs_.end());
+  if (pairs_.empty()) {
+    std::ostringstream message;
+    message << path_ << ": no frame between --start and --start + --duration; the recording lasts "
+            << (left_stamps_.back() - left_stamps_.front()).toSec() << " s";
+    throw InputError(message.str());
+  }
+}
+
+std::optional<Eigen::Isometry3d> Recording::transform(const std::string& target,
+                                                      const std::string& source) const {
+  try {
+    return toIsometry(
+        transforms_.lookupTransform(withoutSlash(target), withoutSlash(source), ros::Time(0)).transform);
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
+Recording::GroundTruth Recording::groundTruth(const std::string& topic, bool required) const {
+  const auto found = find(
+      topic.substr(topic.find_first_not_of('/') == std::string::npos ? 0 : topic.find_first_not_of('/')));
+  if (!found) {
+    if (!required) return {};
+    throw InputError(path_ + ": no ground truth topic " + topic + " (and no such file); the bag holds " +
+                     topicList());
+  }
+  GroundTruth truth;
+  rosbag::View view(bag_, rosbag::TopicQuery(*found));
+  for (const rosbag::MessageInstance& message : view) {
+    if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) {
+      truth.trajectory.push_back(toStampedPose(odometry->header.stamp, odometry->pose.pose));
+      truth.body_frame = withoutSlash(odometry->child_frame_id);
+    } else if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>()) {
+      truth.trajectory.push_back(toStampedPose(pose->header.stamp, pose->pose));
+    } else if (const auto transform = message.instantiate<geometry_msgs::TransformStamped>()) {
+      truth.trajectory.push_back({transform->header.stamp.toSec(), toIsometry(transform->transform)});
+      truth.body_frame = withoutSlash(transform->child_frame_id);
+    } else {
+      throw InputError(
+          path_ + ": ground truth topic " + *found + " is " + message.getDataType() +
+          ", expected nav_msgs/Odometry, geometry_msgs/PoseStamped or geometry_msgs/TransformStamped");
+    }
+  }
+  return truth;
+}
+
+void Recording::forEachPair(const std::function<void(const RawPair&)>& handle) const {
+  // Messages come in order of recording; an image waits here until its partner has come.
+  std::map<std::size_t, sensor_msgs::ImageConstPtr> waiting_left;
+  std::map<std::size_t, sensor_msgs::ImageConstPtr> waiting_right;
+  std::map<ros::Time, std::size_t> pair_of_left;
+  std::map<ros::Time, std::size_t> pair_of_right;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    pair_of_left[left_stamps_[pairs_[i].left]] = i;
+    pair_of_right[right_stamps_[pairs_[i].right]] = i;
+  }
+  std::size_t next = 0;
+  rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
+  for (const rosbag::MessageInstance& message : view) {
+    const auto image = message.instantiate<sensor_msgs::Image>();
+    const bool is_left = message.getTopic() == topics_.left;
+    const auto& pair_of = is_left ? pair_of_left : pair_of_right;
+    const auto pair = pair_of.find(image->header.stamp);
+    if (pair == pair_of.end()) continue;
+    (is_left ? waiting_left : waiting_right)[pair->second] = image;
+    while (waiting_left.count(next) != 0 && waiting_right.count(next) != 0) {
+      handle({pairs_[next].left_time_s, pairs_[next].right_time_s, pairs_[next].rolling_shutter_s,
+              toMono8(waiting_left[next]), toMono8(waiting_right[next])});
+      waiting_left.erase(next);
+      waiting_right.erase(next);
+      ++next;
+    }
+  }
+}
+
+}  // namespace stereo_nav::ros_io

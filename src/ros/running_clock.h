@@ -1,0 +1,25 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include "ros/frame_synchroniser.h"
+
+namespace stereo_nav::ros_io {
+
+/// Seconds that pass only while the ROS clock moves: a paused replay is no silence. To be asked often: what
+/// is longer than `longest_tick_s` between two questions counts as a pause, too. Not thread-safe.
+class RunningClock {
+ public:
+  explicit RunningClock(double longest_tick_s)
+      : longest_tick_s_(longest_tick_s), last_steady_time_(std::chrono::steady_clock::now()) {}
+
+  double seconds();
+
+ private:
+  double longest_tick_s_;
+  double seconds_ = 0.0;
+  ros::Time last_ros_time_;
+  SteadyTime last_steady_time_;
+};
+
+}  // namespace stereo_nav::ros_io

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/Quaternion.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cstdint>
+
+#include "sim/simulation.h"
+#include "stereo_nav/StereoSync.h"
+
+namespace stereo_nav::ros_io {
+
+/// What stereo_capture publishes of one pair by default, and the truth at its left image: images, infos and
+/// odometry carry the left image's exposure time, the true instants are in `sync`.
+struct PairMessages {
+  sensor_msgs::Image left, right;
+  sensor_msgs::CameraInfo left_info, right_info;
+  StereoSync sync;
+  nav_msgs::Odometry ground_truth;
+  double available_s;  ///< when both images are complete, simulation time
+};
+
+/// The sensors of a simulation as messages. `start` is the stamp of simulation time 0; the IMU, which the
+/// simulation has in the base's origin with the base's axes, sits at `T_base_imu`. (Its acceleration remains
+/// that of the origin.) Const methods may be called from several threads; `simulation` must outlive it.
+class SimulatedMessages {
+ public:
+  SimulatedMessages(const sim::Simulation& simulation, const ros::Time& start,
+                    const Eigen::Isometry3d& T_base_imu = Eigen::Isometry3d::Identity());
+
+  ros::Time stamp(double time_s) const { return start_ + ros::Duration(time_s); }
+
+  /// Renders both images.
+  PairMessages pair(std::size_t index) const;
+  sensor_msgs::Imu imu(std::size_t index) const;
+  /// The thesis' `imu_quat`: attitude without a header, front-left-up.
+  geometry_msgs::Quaternion imuQuaternion(std::size_t index) const;
+  bool hasAttitude() const;
+  /// The robot passes way-point `index`; stamp is the moment, point the way-point in `odom`.
+  geometry_msgs::PointStamped waypoint(std::size_t index) const;
+  /// Where cameras and IMU sit on `base_link`. The right optical frame is there for the eye only: both images
+  /// carry the left one.
+  tf2_msgs::TFMessage staticTransforms() const;
+
+  /// Pose of `base_link` in `odom` and its velocities.
+  nav_msgs::Odometry groundTruth(double time_s) const;
+
+ private:
+  sensor_msgs::CameraInfo info(sim::Side side, const std_msgs::Header& header) const;
+  sensor_msgs::Image image(sim::Side side, std::size_t pair, const std_msgs::Header& header) const;
+
+  const sim::Simulation& simulation_;
+  ros::Time start_;
+  Eigen::Isometry3d T_base_imu_;
+};
+
+}  // namespace stereo_nav::ros_io

@@ -1,0 +1,67 @@
+#include "sensors/camera/capture_params.h"
+
+#include <linux/videodev2.h>
+
+#include <cmath>
+
+namespace stereo_nav::camera {
+
+void CaptureParams::describe(ParameterVisitor& visitor) {
+  visitor.integer("width", width, {16, 8192}, "px", "image width, one that both cameras offer");
+  visitor.integer("height", height, {16, 8192}, "px", "image height");
+  visitor.real("rate_hz", rate_hz, {0.1, 1000.0}, "Hz", "frame rate asked from both cameras");
+  visitEnum(visitor, "format", format,
+            {{"any", PixelFormat::Any},
+             {"mjpg", PixelFormat::Mjpg},
+             {"yuyv", PixelFormat::Yuyv},
+             {"uyvy", PixelFormat::Uyvy},
+             {"grey", PixelFormat::Grey},
+             {"nv12", PixelFormat::Nv12}},
+            "what the cameras send; any takes the first that a camera has, in this order");
+  visitEnum(visitor, "encoding", encoding, {{"bgr8", Encoding::Bgr8}, {"mono8", Encoding::Mono8}},
+            "encoding of the published images; mono8 needs about half the time");
+  visitor.integer("buffers", buffers, {2, 32}, "", "image buffers asked from each driver");
+  visitor.real("stall_timeout_s", stall_timeout_s, {0.1, 60.0}, "s",
+               "a camera that sends nothing for so long is opened anew");
+  visitor.real("max_skew_s", max_skew_s, {0.0, 1.0}, "s",
+               "left and right images further apart in time are no pair; half the frame period loses none");
+  visitEnum(visitor, "stamps", stamps, {{"common", Stamps::Common}, {"true", Stamps::True}},
+            "common: both images of a pair carry the left one's time; true: each its own");
+  visitor.real("exposure_ms", exposure_ms, {-1.0, 1000.0}, "ms",
+               "exposure time of both cameras; 0: automatic, -1: as the camera is set");
+  visitor.integer("gain", gain, {-1, 10000}, "",
+                  "gain of both cameras in the driver's units; -1: as the camera is set");
+  visitor.flag("match_exposure", match_exposure,
+               "the right camera follows the exposure time and gain that the left one tells");
+  visitor.real("rolling_shutter_ms", rolling_shutter_ms, {0.0, 200.0}, "ms",
+               "time from the first row of an image to its last, of both cameras; 0: global shutter");
+}
+
+StereoConfig CaptureParams::toConfig() const {
+  StereoConfig config;
+  config.left.name = "left";
+  config.left.format = {format, width, height, rate_hz};
+  config.left.encoding = encoding;
+  config.left.buffers = buffers;
+  config.left.stall_timeout_s = stall_timeout_s;
+  config.left.rolling_shutter_s = 1e-3 * rolling_shutter_ms;
+  config.right = config.left;
+  config.right.name = "right";
+  config.max_skew_s = max_skew_s;
+  config.match_exposure = match_exposure;
+  return config;
+}
+
+std::vector<ControlSetting> exposureControls(double exposure_ms, int gain) {
+  constexpr double kUnitsPerMs = 10.0;  // V4L2 counts exposure in 100 us
+  std::vector<ControlSetting> settings;
+  if (exposure_ms == 0.0) settings.push_back({"auto_exposure", V4L2_EXPOSURE_APERTURE_PRIORITY});
+  if (exposure_ms > 0.0) {
+    settings.push_back({"auto_exposure", V4L2_EXPOSURE_MANUAL});
+    settings.push_back({"exposure_time_absolute", static_cast<int>(std::lround(exposure_ms * kUnitsPerMs))});
+  }
+  if (gain >= 0) settings.push_back({"gain", gain});
+  return settings;
+}
+
+}  // namespace stereo_nav::camera

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "sensors/camera/stereo_camera.h"
+#include "stereo_nav/core/parameter_visitor.h"
+
+namespace stereo_nav::camera {
+
+/// What the user sets for both cameras alike. Devices, controls and calibration are text and the node's own.
+struct CaptureParams {
+  enum class Stamps { Common, True };
+
+  int width = 640;
+  int height = 480;
+  double rate_hz = 30.0;
+  PixelFormat format = PixelFormat::Any;
+  Encoding encoding = Encoding::Bgr8;
+  int buffers = 4;
+  double stall_timeout_s = 1.0;
+  double max_skew_s = 0.02;
+  Stamps stamps = Stamps::Common;
+  double exposure_ms = -1.0;  ///< negative: as it is; 0: automatic
+  int gain = -1;              ///< negative: as it is
+  bool match_exposure = false;
+  double rolling_shutter_ms = 0.0;
+
+  void describe(ParameterVisitor& visitor);
+
+  /// The two cameras' configuration but for devices and controls.
+  StereoConfig toConfig() const;
+};
+
+/// The settings of the controls that `exposure_ms` and `gain` stand for; none where they are negative.
+std::vector<ControlSetting> exposureControls(double exposure_ms, int gain);
+
+}  // namespace stereo_nav::camera

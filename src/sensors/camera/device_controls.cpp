@@ -1,0 +1,68 @@
+#include <linux/videodev2.h>
+
+#include "sensors/camera/v4l2_device.h"
+
+namespace stereo_nav::camera {
+namespace {
+
+/// Controls that hold one 32-bit number; the others (strings, matrices, headings) are of no use here.
+bool holdsNumber(std::uint32_t type) {
+  return type == V4L2_CTRL_TYPE_INTEGER || type == V4L2_CTRL_TYPE_BOOLEAN || type == V4L2_CTRL_TYPE_MENU ||
+         type == V4L2_CTRL_TYPE_INTEGER_MENU || type == V4L2_CTRL_TYPE_BITMASK ||
+         type == V4L2_CTRL_TYPE_BUTTON;
+}
+
+}  // namespace
+
+const std::vector<Control>& V4l2Device::controls() {
+  if (!controls_) {
+    controls_.emplace();
+    v4l2_queryctrl query{};
+    query.id = V4L2_CTRL_FLAG_NEXT_CTRL;
+    for (; call(VIDIOC_QUERYCTRL, &query) == 0; query.id |= V4L2_CTRL_FLAG_NEXT_CTRL) {
+      if (!holdsNumber(query.type) || (query.flags & V4L2_CTRL_FLAG_DISABLED) != 0) continue;
+      Control control;
+      control.name = controlName(reinterpret_cast<const char*>(query.name));
+      control.id = query.id;
+      control.type = query.type;
+      control.flags = query.flags;
+      control.minimum = query.minimum;
+      control.maximum = query.maximum;
+      control.step = query.step;
+      control.default_value = query.default_value;
+      if (query.type == V4L2_CTRL_TYPE_MENU) control.menu = menuOf(control);
+      controls_->push_back(std::move(control));
+    }
+  }
+  return *controls_;
+}
+
+std::vector<std::string> V4l2Device::menuOf(const Control& control) {
+  std::vector<std::string> entries;
+  for (std::int32_t item = control.minimum; item <= control.maximum; ++item) {
+    v4l2_querymenu menu{};
+    menu.id = control.id;
+    menu.index = static_cast<std::uint32_t>(item);
+    if (call(VIDIOC_QUERYMENU, &menu) == 0) {
+      entries.push_back(std::to_string(item) + ": " + reinterpret_cast<const char*>(menu.name));
+    }
+  }
+  return entries;
+}
+
+std::int32_t V4l2Device::getControl(const Control& control) {
+  v4l2_control value{};
+  value.id = control.id;
+  require(call(VIDIOC_G_CTRL, &value), Step::Control, "reading " + control.name);
+  return value.value;
+}
+
+std::int32_t V4l2Device::setControl(const Control& control, std::int32_t value) {
+  v4l2_control setting{};
+  setting.id = control.id;
+  setting.value = value;
+  require(call(VIDIOC_S_CTRL, &setting), Step::Control, control.name + " = " + std::to_string(value));
+  return control.type == V4L2_CTRL_TYPE_BUTTON ? value : getControl(control);
+}
+
+}  // namespace stereo_nav::camera

@@ -1,0 +1,127 @@
+#include "sensors/camera/stereo_camera.h"
+
+#include <linux/videodev2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace stereo_nav::camera {
+namespace {
+
+std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(seconds * 1e9));
+}
+
+}  // namespace
+
+StereoCamera::StereoCamera(const StereoConfig& config, Kernel& kernel, const DeviceFinder& finder,
+                           PairSink on_pair, Log log)
+    : kernel_(kernel),
+      match_exposure_(config.match_exposure),
+      on_pair_(std::move(on_pair)),
+      log_(log),
+      pairer_(nanoseconds(1.0 / config.left.format.rate_hz), nanoseconds(config.max_skew_s)),
+      left_(
+          config.left, kernel, finder, [this](Frame frame) { take(Side::Left, std::move(frame)); },
+          [this] { cameraStarted(Side::Left); }, log),
+      right_(
+          config.right, kernel, finder, [this](Frame frame) { take(Side::Right, std::move(frame)); },
+          [this] { cameraStarted(Side::Right); }, log) {}
+
+StereoCamera::~StereoCamera() {
+  stop();
+}
+
+void StereoCamera::start() {
+  left_.start();
+  right_.start();
+}
+
+void StereoCamera::stop() {
+  left_.stop();
+  right_.stop();
+}
+
+void StereoCamera::setMaxSkew(double max_skew_s) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  pairer_.setMaxSkew(nanoseconds(max_skew_s));
+}
+
+void StereoCamera::cameraStarted(Side side) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  pairer_.restart(side);
+}
+
+void StereoCamera::take(Side side, Frame frame) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  auto pair = pairer_.push(side, std::move(frame));
+  if (!pair) return;
+  enqueue(std::move(*pair));
+  if (!delivering_) deliverPairs(lock);
+}
+
+void StereoCamera::enqueue(FramePair pair) {
+  beat_.add(pair.left.time_ns, pair.skew_ns(), pairer_.period_ns());
+  skew_s_ = 1e-9 * static_cast<double>(pair.skew_ns());
+  const auto& dropped = pairer_.counts().without_partner;
+  queue_.push_back({std::move(pair), dropped[0] + dropped[1], beat_.skewRate()});
+  if (queue_.size() <= kQueueLength) return;
+  queue_.pop_front();
+  ++delivered_late_;
+}
+
+/// Also what the other camera completes meanwhile, so that pairs keep their order.
+void StereoCamera::deliverPairs(std::unique_lock<std::mutex>& lock) {
+  delivering_ = true;
+  while (!queue_.empty()) {
+    StereoImages images = std::move(queue_.front());
+    queue_.pop_front();
+    const std::int64_t now_ns = kernel_.monotonicNow();
+    latency_s_ = 1e-9 * static_cast<double>(
+                            now_ns - std::max(images.pair.left.dequeued_ns, images.pair.right.dequeued_ns));
+    pair_rate_.add(now_ns);
+    lock.unlock();
+    on_pair_(std::move(images));
+    if (match_exposure_) matchExposure();
+    lock.lock();
+  }
+  delivering_ = false;
+}
+
+void StereoCamera::matchExposure() {
+  const CameraStatus left = left_.status();
+  if (left.exposure_untold && !std::exchange(told_of_untold_exposure_, true)) {
+    log_(
+        Severity::Warning,
+        "match_exposure: the left camera has not told the exposure time that it chose; the right one follows "
+        "as soon as it does. If the images stay different, set exposure_ms");
+  }
+  if (left.exposure && left.exposure != matched_exposure_) {
+    matched_exposure_ = left.exposure;
+    right_.setControl("auto_exposure", V4L2_EXPOSURE_MANUAL);
+    right_.setControl("exposure_time_absolute", *left.exposure);
+  }
+  if (left.gain && left.gain != matched_gain_) {
+    matched_gain_ = left.gain;
+    right_.setControl("gain", *left.gain);
+  }
+}
+
+StereoStatus StereoCamera::status() const {
+  StereoStatus status;
+  status.left = left_.status();
+  status.right = right_.status();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status.pairing = pairer_.counts();
+  status.delivered_late = delivered_late_;
+  status.pair_rate_hz = pair_rate_.get_hz(kernel_.monotonicNow());
+  status.max_skew_s = 1e-9 * static_cast<double>(pairer_.maxSkew_ns());
+  status.skew_s = skew_s_;
+  status.skew_rate = beat_.skewRate();
+  status.latency_s = latency_s_;
+  return status;
+}
+
+}  // namespace stereo_nav::camera

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sensors/camera/capture_error.h"
+#include "sensors/camera/controls.h"
+#include "sensors/camera/decoder.h"
+#include "sensors/camera/kernel.h"
+#include "sensors/camera/pixel_format.h"
+
+namespace stereo_nav::camera {
+
+/// What the driver says about itself.
+struct Capabilities {
+  std::string driver;
+  std::string card;
+  std::string bus_info;
+  bool captures_video = false;  ///< single-planar capture with streaming, which is what webcams have
+};
+
+/// What a driver is asked for; it may agree to something near.
+struct FormatRequest {
+  PixelFormat format = PixelFormat::Any;
+  int width = 640;
+  int height = 480;
+  double rate_hz = 30.0;
+};
+
+/// What the driver agreed to.
+struct ActiveFormat {
+  ImageLayout layout;
+  double rate_hz = 0.0;  ///< 0 if the driver does not tell
+};
+
+/// One size of one format, with the rates it can have.
+struct OfferedFormat {
+  std::uint32_t fourcc = 0;
+  std::string description;
+  int width = 0;
+  int height = 0;
+  std::vector<double> rates_hz;
+};
+
+/// A frame in the driver's memory, lent until it is given back.
+struct LentBuffer {
+  std::uint32_t index = 0;
+  const std::uint8_t* data = nullptr;
+  std::size_t size = 0;
+  std::int64_t stamp_ns = 0;  ///< as the driver wrote it; of which clock and moment, `flags` says
+  std::uint32_t flags = 0;    ///< V4L2_BUF_FLAG_...
+  std::uint32_t sequence = 0;
+  std::int64_t dequeued_ns = 0;  ///< when it was taken from the driver, CLOCK_MONOTONIC
+
+  bool isBroken() const;
+};
+
+/// A V4L2 capture device with memory-mapped buffers. Every failure throws CaptureError; the destructor gives
+/// everything back whatever happened. Not for use by several threads.
+class V4l2Device {
+ public:
+  /// Opens the device and asks for its capabilities.
+  V4l2Device(Kernel& kernel, const std::string& path);
+  ~V4l2Device();
+  V4l2Device(const V4l2Device&) = delete;
+  V4l2Device& operator=(const V4l2Device&) = delete;
+
+  const std::string& path() const { return path_; }
+  const Capabilities& capabilities() const { return capabilities_; }
+
+  /// Sets size, format and rate. Throws when the driver changes the size or the format; another rate is
+  /// accepted and told in the result.
+  ActiveFormat configure(const FormatRequest& request);
+  std::vector<OfferedFormat> offeredFormats();
+
+  void startStreaming(int buffers);
+  void stopStreaming() noexcept;
+  /// False on time-out. Throws when the driver reports an error and has no frame.
+  bool wait(int timeout_ms);
+  /// The oldest filled buffer, or none.
+  std::optional<LentBuffer> dequeue();
+  void giveBack(const LentBuffer& buffer);
+
+  /// Asked from the driver on first use.
+  const std::vector<Control>& controls();
+  std::int32_t getControl(const Control& control);
+  /// Returns the value that the driver then has. Throws when it refuses.
+  std::int32_t setControl(const Control& control, std::int32_t value);
+
+ private:
+  struct Mapping {
+    void* address;
+    std::size_t length;
+  };
+
+  int call(unsigned long request, void* argument);
+  void require(int result, Step step, const std::string& details) const;
+  void closeDescriptor() noexcept;
+  void queryCapabilities();
+  std::vector<std::string> menuOf(const Control& control);
+  std::vector<std::uint32_t> formatsToTry(PixelFormat wanted);
+  double setRate(double rate_hz);
+  std::vector<double> offeredRates(std::uint32_t fourcc, int width, int height);
+  void mapBuffers(int count);
+  void unmapBuffers() noexcept;
+
+  Kernel& kernel_;
+  std::string path_;
+  int descriptor_ = -1;
+  Capabilities capabilities_;
+  std::optional<std::vector<Control>> controls_;
+  std::vector<Mapping> buffers_;
+  std::string format_text_;  ///< for messages
+  bool streaming_ = false;
+};
+
+}  // namespace stereo_nav::camera

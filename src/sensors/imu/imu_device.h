@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "sensors/imu/frame_decoder.h"
+#include "sensors/imu/link_monitor.h"
+#include "sensors/imu/port_finder.h"
+#include "sensors/imu/serial_port.h"
+#include "sensors/imu/stamp_filter.h"
+
+namespace stereo_nav::imu {
+
+struct ImuDeviceParams {
+  Protocol protocol = Protocol::kAngles;
+  int baud_rate = 115200;
+  AngleOrder angle_order = AngleOrder::kYawPitchRoll;
+  double latency_s = 0.0;
+  double retry_s = 0.5;
+  AngleGateParams gate;
+  StampFilterParams stamps;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+/// One measurement of the module with its time.
+struct ImuReading {
+  double time_s = 0.0;  ///< when it was taken, on the steady clock
+  std::optional<ModuleAngles> angles;
+  std::optional<RawMeasurement> raw;
+};
+
+/// A snapshot for diagnostics. Jitters are standard deviations, see JitterMeter.
+struct ImuDeviceStatus {
+  LinkState state = LinkState::kDisconnected;
+  std::string message;  ///< what is seen, and when something is wrong the likely cause and the remedy
+  double rate_hz = 0.0;
+  double arrival_jitter_s = 0.0;
+  double stamp_jitter_s = 0.0;
+  std::uint64_t connections = 0;
+  DecoderCounters counters;
+};
+
+/// Seconds of CLOCK_MONOTONIC, which the readings' times count in.
+double steadyNow_s();
+
+/// A module on a serial port that may come, go and fall silent. Never throws for what the line does: it
+/// reports, retries every `retry_s`, and resumes.
+class ImuDevice {
+ public:
+  using Sink = std::function<void(const ImuReading&)>;
+
+  ImuDevice(const ImuDeviceParams& params, PortFinder port);
+
+  /// Waits for bytes for at most `timeout_s` and hands on what they complete. To be called from one thread in
+  /// a loop.
+  void poll(double timeout_s, const Sink& sink);
+  /// From any thread. Rate and jitter are those of the last full five seconds.
+  ImuDeviceStatus status() const;
+
+ private:
+  void tryOpen(double now_s);
+  void disconnect(const SerialError& error, double now_s);
+  void readOnce(double timeout_s, const Sink& sink);
+  void deliver(const DecodedFrame& frame, const Sink& sink);
+  std::string explain(LinkState state, double now_s) const;
+
+  ImuDeviceParams params_;
+  PortFinder finder_;
+  std::unique_ptr<FrameDecoder> decoder_;
+  StampFilter stamps_;
+  std::unique_ptr<SerialPort> port_;
+  double next_attempt_s_ = 0.0;
+
+  mutable std::mutex mutex_;  ///< guards what follows
+  LinkMonitor link_;
+  JitterMeter jitter_;
+  ImuDeviceStatus status_;
+};
+
+}  // namespace stereo_nav::imu

@@ -1,0 +1,96 @@
+#include "sensors/imu/stamp_filter.h"
+
+#include <algorithm>
+
+namespace stereo_nav::imu {
+namespace {
+
+/// Arrivals that stay late this long are not batched but renumbered.
+constexpr double kStepWatch_s = 0.5;
+/// No arrival for longer than this: the program slept, or the module did.
+constexpr double kSilence_s = 0.1;
+/// Stamps keep at least this share of the period between them when the line is re-estimated.
+constexpr double kMinStep = 0.1;
+
+}  // namespace
+
+void StampFilterParams::describe(ParameterVisitor& visitor) {
+  visitor.real("window_s", window_s, {2.0, 600.0}, "s",
+               "arrivals the device clock is estimated from; longer is smoother, shorter follows its drift");
+  visitor.real("settle_s", settle_s, {0.2, 60.0}, "s", "time before the device clock's rate is re-estimated");
+}
+
+void StampFilter::reset() {
+  *this = StampFilter(params_);
+}
+
+void StampFilter::beginWindow() {
+  older_.clear();
+  younger_.clear();
+  late_since_s_.reset();
+}
+
+void StampFilter::restartClock() {
+  beginWindow();
+  last_x_.reset();
+  last_stamp_s_.reset();
+}
+
+double StampFilter::stamp(double x, double step, double arrival_s) {
+  if (last_x_ && x <= *last_x_) restartClock();
+  addToWindow(x, arrival_s);
+  updateSlope(x, arrival_s);
+  const double slope = slope_.value_or(0.0);
+  double stamp_s = slope * x + older_.offset(slope);
+  watchForStep(arrival_s - stamp_s, 0.5 * slope * step, arrival_s);
+  if (last_stamp_s_) stamp_s = std::max(stamp_s, *last_stamp_s_ + kMinStep * slope * (x - *last_x_));
+  last_x_ = x;
+  last_stamp_s_ = stamp_s;
+  return stamp_s;
+}
+
+void StampFilter::updateSlope(double x, double arrival_s) {
+  const double span_s = slope_ ? older_.span() * *slope_ : 0.0;
+  const double needed_s = std::max(params_.settle_s, std::min(slope_span_s_, 0.5 * params_.window_s));
+  if (older_.size() >= 2 && span_s >= needed_s) {
+    slope_ = older_.middleSlope();
+    slope_span_s_ = span_s;
+  } else if (slope_span_s_ == 0.0 && x > first_x_) {
+    slope_ = (arrival_s - first_arrival_s_) / (x - first_x_);
+  }
+}
+
+void StampFilter::addToWindow(double x, double arrival_s) {
+  if (older_.empty()) {
+    window_start_s_ = younger_start_s_ = arrival_s;
+    if (slope_span_s_ == 0.0) {
+      first_x_ = x;
+      first_arrival_s_ = arrival_s;
+    }
+  }
+  if (arrival_s - window_start_s_ > params_.window_s) {
+    older_ = younger_;
+    window_start_s_ = younger_start_s_;
+  }
+  if (arrival_s - younger_start_s_ > 0.5 * params_.window_s) {
+    younger_.clear();
+    younger_start_s_ = arrival_s;
+  }
+  older_.add(x, arrival_s);
+  younger_.add(x, arrival_s);
+}
+
+/// Waits from the first late arrival on, anew after each silence: frames that queued while this program slept
+/// come late, all at once, and say nothing about what the module lost.
+void StampFilter::watchForStep(double late_s, double threshold_s, double arrival_s) {
+  if (late_s <= threshold_s) {
+    late_since_s_.reset();
+  } else if (!late_since_s_ || arrival_s - last_arrival_s_ > kSilence_s) {
+    late_since_s_ = arrival_s;
+  } else if (arrival_s - *late_since_s_ > kStepWatch_s) {
+    beginWindow();
+  }
+  last_arrival_s_ = arrival_s;
+}
+
+}  // namespace stereo_nav::imu

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "sim/camera.h"
+#include "sim/renderer.h"
+#include "sim/scenario.h"
+
+namespace stereo_nav::sim {
+
+enum class Side { kLeft, kRight };
+
+/// Of the two raw cameras, with their rectification.
+struct StereoCalibrationPair {
+  CameraCalibration left;
+  CameraCalibration right;
+};
+
+/// Reads left.yaml and right.yaml of a folder.
+StereoCalibrationPair loadStereoCalibration(const std::string& folder);
+
+/// A scenario brought to life with a seed: what the sensors deliver and the truth, all as functions of time.
+/// Const methods may be called from several threads; results depend on the seed alone.
+class Simulation {
+ public:
+  /// `calibration` is for rig.image_scale 1.
+  Simulation(const Scenario& scenario, const StereoCalibrationPair& calibration, std::uint64_t seed);
+
+  double duration_s() const { return trajectory_.duration_s(); }
+  const Scenario& scenario() const { return scenario_; }
+  const CameraCalibration& calibration(Side side) const { return camera(side).calibration; }
+  const Trajectory& trajectory() const { return trajectory_; }
+  const std::vector<PairInstants>& pairs() const { return pairs_; }
+  const std::vector<ImuSample>& imu() const { return imu_; }
+  /// Exposure time of an image, middle of its middle row.
+  double imageTime(Side side, std::size_t pair) const;
+
+  /// The raw, distorted image of a pair, CV_8UC1.
+  cv::Mat image(Side side, std::size_t pair) const;
+
+  /// Pose of the raw optical frame of a camera.
+  Eigen::Isometry3d cameraPose(Side side, double time_s) const;
+
+ private:
+  struct Camera {
+    CameraCalibration calibration;
+    Eigen::Isometry3d T_base_raw;
+    Renderer renderer;
+    ImageSensor sensor;
+  };
+
+  std::unique_ptr<Camera> makeCamera(Side side, const CameraCalibration& calibration) const;
+  const Camera& camera(Side side) const { return side == Side::kLeft ? *left_ : *right_; }
+  double lightLevel(double time_s) const;
+  bool blocked(Side side, double time_s) const;
+
+  Scenario scenario_;
+  std::uint64_t seed_;
+  Scene scene_;
+  Trajectory trajectory_;
+  std::vector<PairInstants> pairs_;
+  std::vector<ImuSample> imu_;
+  std::unique_ptr<Camera> left_, right_;
+};
+
+}  // namespace stereo_nav::sim

@@ -1,0 +1,75 @@
+#include "tools/evaluate/evaluate_options.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "ros/package_files.h"
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/odometry/common/odometry.h"
+#include "tools/common/command_line.h"
+
+namespace stereo_nav::tools {
+namespace {
+
+namespace po = boost::program_options;
+
+void checkValues(const EvaluateOptions& options) {
+  if (!std::isfinite(options.part.start_s) || options.part.start_s < 0.0) {
+    throw InputError("--start must be a number of seconds, 0 or more");
+  }
+  if (!(options.part.duration_s > 0.0)) throw InputError("--duration must be a number of seconds above 0");
+  const double rolling_shutter_s = options.part.rolling_shutter_s.value_or(0.0);
+  if (!(rolling_shutter_s >= 0.0 && rolling_shutter_s <= odometry::kLongestReadout_s))
+    throw InputError("--rolling-shutter-ms must be a number of milliseconds from 0 to 200");
+  if (options.repeat < 1) throw InputError("--repeat must be 1 or more");
+}
+
+}  // namespace
+
+std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
+  EvaluateOptions options;
+  po::options_description visible(
+      "usage: evaluate BAG [options]\n"
+      "Runs the odometry on a recording as fast as it can and measures it against ground truth");
+  visible.add_options()        //
+      ("help,h", "this text")  //
+      ("config", po::value<std::string>()->default_value("vo.yaml"),
+       "parameters of the odometry: a path, or a file of the package's config folder")  //
+      ("disparity-config", po::value<std::string>()->default_value("disparity.yaml"),
+       "parameters of the disparity map, where the odometry uses one; found likewise")  //
+      ("disparity-from", po::value<std::string>(),
+       "bag whose camera/disparity is taken instead of a map of our own, e.g. BAG itself")  //
+      ("ground-truth", po::value<std::string>(),
+       "TUM trajectory file, or topic in the bag (default: ground_truth/odom if the bag has it)")  //
+      ("ground-truth-frame", po::value<std::string>(),
+       "frame whose poses the ground truth gives (default: the topic's child frame, else base_link)")   //
+      ("output", po::value<std::string>(), "folder for the results (default: NAME_OF_BAG_evaluation)")  //
+      ("start", po::value<double>(&options.part.start_s), "seconds of the recording to skip")           //
+      ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")      //
+      ("rolling-shutter-ms", po::value<double>(),
+       "time from an image's first row to its last, instead of what the recording says; 0: global shutter. "
+       "The "
+       "stamps are taken as those of the middle row")  //
+      ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
+  po::variables_map values;
+  if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;
+  if (values.count("bag") == 0) throw InputError("no BAG given; see evaluate --help");
+  options.bag = values["bag"].as<std::string>();
+  options.config = ros_io::configFile(values["config"].as<std::string>());
+  options.disparity_config = ros_io::configFile(values["disparity-config"].as<std::string>());
+  if (values.count("disparity-from") != 0)
+    options.disparity_from = values["disparity-from"].as<std::string>();
+  if (values.count("ground-truth") != 0) options.ground_truth = values["ground-truth"].as<std::string>();
+  if (values.count("ground-truth-frame") != 0) {
+    options.ground_truth_frame = values["ground-truth-frame"].as<std::string>();
+  }
+  if (values.count("rolling-shutter-ms") != 0)
+    options.part.rolling_shutter_s = 1e-3 * values["rolling-shutter-ms"].as<double>();
+  options.output = values.count("output") != 0
+                       ? values["output"].as<std::string>()
+                       : std::filesystem::path(options.bag).stem().string() + "_evaluation";
+  checkValues(options);
+  return options;
+}
+
+}  // namespace stereo_nav::tools

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "stereo_nav/ros/recording.h"
+
+namespace stereo_nav::tools {
+
+struct EvaluateOptions {
+  std::string bag;
+  std::string config;                         ///< path of the odometry's parameter file
+  std::string disparity_config;               ///< path of the disparity map's parameter file
+  std::optional<std::string> disparity_from;  ///< bag whose camera/disparity is taken; absent: computed
+  std::optional<std::string>
+      ground_truth;  ///< TUM file or topic; absent: ground_truth/odom if the bag has it
+  std::optional<std::string> ground_truth_frame;
+  std::string output;  ///< folder
+  ros_io::RecordingOptions part;
+  int repeat = 1;
+};
+
+/// Nothing when help was asked for and printed. Throws InputError with one line for bad arguments.
+std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv);
+
+}  // namespace stereo_nav::tools

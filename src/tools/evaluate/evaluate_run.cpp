@@ -1,0 +1,183 @@
+#include "tools/evaluate/evaluate_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "core/base_pose.h"
+#include "ros/package_files.h"
+#include "ros/stereo_processing.h"
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/odometry/method/odometry_config.h"
+#include "stereo_nav/ros/topics.h"
+#include "tools/evaluate/recorded_disparity.h"
+
+namespace stereo_nav::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// The transform that the recording must hold.
+Eigen::Isometry3d requireTransform(const ros_io::Recording& recording, const std::string& bag,
+                                   const char* target, const std::string& source) {
+  const auto transform = recording.transform(target, source);
+  if (transform) return *transform;
+  throw InputError(bag + ": tf_static has no transform from " + target + " to '" + source +
+                   "'; record /tf_static too, with a publisher such as `rosrun tf2_ros "
+                   "static_transform_publisher x y z yaw pitch roll " +
+                   target + " " + source + "`");
+}
+
+/// Rotation from the IMU to the left camera; identity where there is no IMU to turn.
+Eigen::Matrix3d imuToCamera(const ros_io::Recording& recording, const std::string& bag,
+                            const Eigen::Isometry3d& T_base_camera) {
+  if (recording.imu().empty()) return Eigen::Matrix3d::Identity();
+  // The thesis' header-less orientation is front-left-up: that of base_link, unless tf says otherwise.
+  if (recording.imuFrame().empty()) return T_base_camera.linear().transpose();
+  const Eigen::Isometry3d T_base_imu =
+      requireTransform(recording, bag, ros_io::frames::kBase, recording.imuFrame());
+  return T_base_camera.linear().transpose() * T_base_imu.linear();
+}
+
+Trajectory groundTruthOfBase(const EvaluateOptions& options, const ros_io::Recording& recording) {
+  ros_io::Recording::GroundTruth truth;
+  if (options.ground_truth && std::filesystem::exists(*options.ground_truth)) {
+    truth.trajectory = readTum(*options.ground_truth);
+  } else {
+    truth = recording.groundTruth(options.ground_truth.value_or(ros_io::topics::kGroundTruth),
+                                  options.ground_truth.has_value());
+  }
+  std::string frame = options.ground_truth_frame.value_or(truth.body_frame);
+  if (frame.empty()) frame = ros_io::frames::kBase;
+  if (truth.trajectory.empty() || frame == ros_io::frames::kBase) return truth.trajectory;
+  const Eigen::Isometry3d T_base_body =
+      requireTransform(recording, options.bag, ros_io::frames::kBase, frame);
+  return ofOtherBody(truth.trajectory, T_base_body.inverse());
+}
+
+/// One pass over the recording.
+class Run {
+ public:
+  Run(const ros_io::Recording& recording, const ros_io::StereoProcessing& processing,
+      odometry::OdometryConfig config, const std::optional<std::string>& disparity_bag,
+      const Eigen::Isometry3d& T_base_camera, const Eigen::Matrix3d& R_camera_imu)
+      : recording_(recording),
+        processing_(processing),
+        config_(std::move(config)),
+        T_base_camera_(T_base_camera),
+        odometry_(odometry::makeOdometry(config_, processing.calibration(), R_camera_imu)) {
+    if (disparity_bag && config_.disparityUse() != odometry::DisparityUse::kNone)
+      recorded_disparity_.emplace(*disparity_bag);
+  }
+
+  eval::FrameRecord handle(const ros_io::RawPair& pair) {
+    odometry::StereoFrame frame;
+    frame.left_time_s = pair.left_time_s;
+    frame.right_time_s = pair.right_time_s;
+    frame.readout_s = pair.rolling_shutter_s;
+    frame.left = processing_.rectifyLeft(pair.left);
+    frame.right = processing_.rectifyRight(pair.right);
+    eval::FrameRecord record;
+    if (config_.disparityUse() != odometry::DisparityUse::kNone) {
+      const auto start = Clock::now();
+      frame.disparity = disparityFor(frame);
+      record.timing.disparity_ms = millisecondsSince(start);
+    }
+    feedImu(std::max(pair.left_time_s, pair.right_time_s));
+    const auto start = Clock::now();
+    const odometry::FrameResult result = odometry_->process(frame);
+    record.timing.frame_ms = millisecondsSince(start);
+    for (const odometry::StageTime& stage : result.stage_times) {
+      record.timing.stages_ms.emplace_back(stage.stage, stage.milliseconds);
+    }
+    record.time_s = pair.left_time_s;
+    if (result.state != odometry::State::kLost)
+      record.T_odom_base = basePose(T_base_camera_, result.T_start_camera);
+    // The thesis detects a new set in every frame, the default only where tracks are missing.
+    record.features = std::max(result.features_detected, result.features_tracked);
+    record.inliers = result.inliers;
+    return record;
+  }
+
+ private:
+  /// `latest` is what the thesis' program gets: the map of the frame before, since this one's is still being
+  /// computed.
+  cv::Mat disparityFor(const odometry::StereoFrame& frame) {
+    cv::Mat matched = recorded_disparity_ ? recorded_disparity_->at(frame.left_time_s)
+                                          : processing_.disparity(frame.left, frame.right);
+    if (config_.disparityUse() == odometry::DisparityUse::kMatched) return matched;
+    std::swap(matched, previous_disparity_);
+    return matched;
+  }
+
+  /// All samples up to the frame's last exposure and the first one after it, so that its end can be
+  /// interpolated.
+  void feedImu(double frame_time_s) {
+    const auto& samples = recording_.imu();
+    while (next_imu_ < samples.size()) {
+      const ImuSample& sample = samples[next_imu_++];
+      odometry_->addImu(sample);
+      if (sample.time_s >= frame_time_s) break;
+    }
+  }
+
+  const ros_io::Recording& recording_;
+  const ros_io::StereoProcessing& processing_;
+  odometry::OdometryConfig config_;
+  Eigen::Isometry3d T_base_camera_;
+  std::unique_ptr<odometry::Odometry> odometry_;
+  std::size_t next_imu_ = 0;
+  std::optional<RecordedDisparity> recorded_disparity_;
+  cv::Mat previous_disparity_;
+};
+
+bool samePoses(const std::vector<eval::FrameRecord>& a, const std::vector<eval::FrameRecord>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+    return one.T_odom_base.has_value() == other.T_odom_base.has_value() &&
+           (!one.T_odom_base || one.T_odom_base->matrix() == other.T_odom_base->matrix());
+  });
+}
+
+}  // namespace
+
+EvaluationRun runEvaluation(const EvaluateOptions& options,
+                            const std::function<void(std::size_t, std::size_t)>& progress) {
+  const odometry::OdometryConfig config = odometry::loadOdometryConfig(options.config);
+  ros_io::DisparityParams disparity;
+  readParameters(loadYamlFile(options.disparity_config), options.disparity_config, disparity);
+
+  const ros_io::Recording recording(options.bag, options.part);
+  const ros_io::StereoProcessing processing(recording.leftInfo(), recording.rightInfo(), disparity);
+  const Eigen::Isometry3d T_base_camera =
+      requireTransform(recording, options.bag, ros_io::frames::kBase, recording.leftInfo().header.frame_id);
+  const Eigen::Matrix3d R_camera_imu = imuToCamera(recording, options.bag, T_base_camera);
+
+  EvaluationRun run;
+  run.unpaired_images = recording.unpairedImages();
+  run.input.input = std::filesystem::path(options.bag).filename().string();
+  run.input.config = std::filesystem::path(options.config).filename().string();
+  run.input.T_base_camera = T_base_camera;
+  run.input.ground_truth = groundTruthOfBase(options, recording);
+
+  for (int repetition = 0; repetition < options.repeat; ++repetition) {
+    Run pass(recording, processing, config, options.disparity_from, T_base_camera, R_camera_imu);
+    std::vector<eval::FrameRecord> frames;
+    recording.forEachPair([&](const ros_io::RawPair& pair) {
+      frames.push_back(pass.handle(pair));
+      run.timings.push_back(frames.back().timing);
+      progress(run.timings.size(), recording.pairs() * static_cast<std::size_t>(options.repeat));
+    });
+    if (repetition == 0)
+      run.input.frames = std::move(frames);
+    else if (!samePoses(run.input.frames, frames)) {
+      throw std::logic_error("two runs on the same recording differ; this is a defect of the odometry");
+    }
+  }
+  return run;
+}
+
+}  // namespace stereo_nav::tools

@@ -1,0 +1,146 @@
+// Turns public stereo recordings into bags with the topics of a stereo rig.
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "core/atomic_file.h"
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/ros/conversions.h"
+#include "tools/common/command_line.h"
+#include "tools/common/program.h"
+#include "tools/import_sequence/derived_sequence.h"
+#include "tools/import_sequence/sequence_bag.h"
+
+namespace stereo_nav::tools {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr const char* kUsage =
+    "usage: import_sequence --format euroc|kitti|images DIR --output BAG [options]\n"
+    "Turns a public stereo recording into a bag with the topics of a stereo rig.\n\n"
+    "  euroc   DIR/cam0, cam1 (data.csv, data/, sensor.yaml), imu0, state_groundtruth_estimate0;\n"
+    "          raw images, rectified downstream by the camera_infos written\n"
+    "  kitti   DIR/image_0, image_1, calib.txt, times.txt, poses.txt (KITTI odometry); time 0 becomes 1000 "
+    "s\n"
+    "  images  DIR/left, right with images, or two videos *L.mp4, *R.mp4 (*left, *right), rectified;\n"
+    "          calib.txt with the lines fx, fy, cx, cy (px), baseline (m) and, if need be, fps\n\n"
+    "base_link is the IMU (the default for euroc) or the left camera with x forward, y left, z up (REP-103;\n"
+    "the default for the others). Ground truth is given of base_link.\n\nOptions";
+
+std::atomic<bool> interrupted{false};
+
+struct Arguments {
+  std::string format;
+  std::string folder;
+  std::string output;
+  bool reverse = false;
+  bool mirror = false;
+  BagOptions bag;
+};
+
+po::options_description describeOptions(Arguments& arguments, double& right_stamp_offset_ms) {
+  po::options_description options(kUsage);
+  options.add_options()("help,h", "this text");
+  options.add_options()("format", po::value(&arguments.format), "layout of the recording");
+  options.add_options()("output", po::value(&arguments.output), "bag to write; replaced if it exists");
+  options.add_options()("every", po::value(&arguments.bag.every), "keep only every N-th pair");
+  options.add_options()("right-lag-frames", po::value(&arguments.bag.right_lag_frames),
+                        "take the right image K original frames later than the left, with its true stamp");
+  options.add_options()("right-stamp-offset-ms", po::value(&right_stamp_offset_ms),
+                        "lie about the right stamps by a constant");
+  options.add_options()("no-imu", "leave the IMU out");
+  options.add_options()("reverse", po::bool_switch(&arguments.reverse), "let time run backwards");
+  options.add_options()("mirror", po::bool_switch(&arguments.mirror),
+                        "flip the images left to right and swap the cameras");
+  options.add_options()("base-frame", po::value<std::string>(), "imu or camera: where base_link is");
+  return options;
+}
+
+void checkArguments(const Arguments& arguments) {
+  if (arguments.format != "euroc" && arguments.format != "kitti" && arguments.format != "images") {
+    throw InputError("--format must be euroc, kitti or images" +
+                     (arguments.format.empty() ? std::string() : ", not '" + arguments.format + "'"));
+  }
+  if (arguments.folder.empty()) throw InputError("no DIR given");
+  if (arguments.output.empty()) throw InputError("no --output BAG given");
+  if (arguments.bag.every < 1) throw InputError("--every must be 1 or more");
+  if (arguments.bag.right_lag_frames < 0) throw InputError("--right-lag-frames must be 0 or more");
+  // Far more than any camera is off; the stamps must stay after time zero.
+  if (!(std::abs(arguments.bag.right_stamp_offset_s) <= 100.0)) {
+    throw InputError("--right-stamp-offset-ms must lie between -100000 and 100000");
+  }
+  if (!std::filesystem::is_directory(arguments.folder)) {
+    throw InputError(arguments.folder + ": is no folder; give the one that holds the recording");
+  }
+}
+
+BaseFrame baseFrame(const std::string& name, const std::string& format) {
+  if (name == "camera") return BaseFrame::kCamera;
+  if (name != "imu") throw InputError("--base-frame must be imu or camera, not '" + name + "'");
+  if (format == "euroc") return BaseFrame::kImu;
+  throw InputError("--base-frame imu: the " + format + " layout knows no IMU; use --base-frame camera");
+}
+
+/// False when help was asked for and printed.
+bool parse(int argc, char** argv, Arguments& arguments) {
+  double right_stamp_offset_ms = 0.0;
+  const po::options_description visible = describeOptions(arguments, right_stamp_offset_ms);
+  po::variables_map values;
+  if (!parseCommandLine(argc, argv, visible, "dir", values)) return false;
+  if (values.count("dir") != 0) arguments.folder = values["dir"].as<std::string>();
+  arguments.bag.imu = values.count("no-imu") == 0;
+  arguments.bag.right_stamp_offset_s = 1e-3 * right_stamp_offset_ms;
+  checkArguments(arguments);
+  const char* default_base = arguments.format == "euroc" ? "imu" : "camera";
+  arguments.bag.base_frame =
+      baseFrame(values.count("base-frame") != 0 ? values["base-frame"].as<std::string>() : default_base,
+                arguments.format);
+  return true;
+}
+
+Sequence readSequence(const Arguments& arguments) {
+  if (arguments.format == "euroc") return readEuroc(arguments.folder);
+  return arguments.format == "kitti" ? readKitti(arguments.folder) : readImages(arguments.folder);
+}
+
+void showProgress(std::size_t done, std::size_t all) {
+  if (interrupted) throw InputError("interrupted; no bag was written");
+  if (isatty(STDERR_FILENO) == 0 && done != all) return;
+  std::fprintf(stderr, "\r%zu of %zu pairs%s", done, all, done == all ? "\n" : "");
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments;
+  if (!parse(argc, argv, arguments)) return 0;
+  { const AtomicFile writable(arguments.output); }  // before the work, not after it
+  Sequence sequence = readSequence(arguments);
+  if (arguments.reverse) reverse(sequence);
+  if (arguments.mirror) mirror(sequence);
+  for (const auto& note : sequence.notes) std::fprintf(stderr, "import_sequence: note: %s\n", note.c_str());
+  const BagSummary summary = writeBag(sequence, arguments.bag, arguments.output, showProgress);
+  if (summary.left_without_partner > 0) {
+    std::fprintf(stderr, "import_sequence: note: %zu left images without a right one are left out\n",
+                 summary.left_without_partner);
+  }
+  std::printf("%s: %zu pairs\n", arguments.output.c_str(), summary.pairs);
+  return 0;
+}
+
+void interrupt(int /*signal*/) {
+  interrupted = true;
+}
+
+}  // namespace
+}  // namespace stereo_nav::tools
+
+int main(int argc, char** argv) {
+  signal(SIGINT, stereo_nav::tools::interrupt);
+  signal(SIGTERM, stereo_nav::tools::interrupt);
+  return stereo_nav::tools::runProgram("import_sequence", stereo_nav::tools::run, argc, argv);
+}
