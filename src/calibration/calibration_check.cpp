@@ -67,8 +67,7 @@ double seenShare(const cv::Size& size, const std::vector<BoardCorners>& corners)
 std::vector<Criterion> criteriaOf(const CalibrationCheck& check, const CheckLimits& limits) {
   const std::string lens_remedy =
       "the lens model does not fit: calibrate again with the board in every corner of the image, near and "
-      "far, "
-      "tilted, and a flat board; was the focus moved or the image size changed since?";
+      "far, tilted, and a flat board; was the focus moved or the image size changed since?";
   const bool shifted = std::abs(check.epipolar_mean_px) > 0.7 * check.epipolar_rms_px;
   const std::string rows_remedy =
       shifted
@@ -120,9 +119,10 @@ ViewFigures measureView(const StereoRig& rig, const Checkerboard& board, const s
   const auto left = rig.left.rectify(corners.left), right = rig.right.rectify(corners.right);
   const auto pose = estimateBoardPose(rig.rectified, board, left, right);
   if (!pose) {
-    throw std::runtime_error(name +
-                             ": the board would be behind the cameras; are left and right swapped, or is "
-                             "the calibration that of other cameras?");
+    throw std::runtime_error(
+        name +
+        ": the board would be behind the cameras; are left and right swapped, or is the calibration that of "
+        "other cameras?");
   }
   ViewFigures view{name, *pose, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
   view.left_lens_px = lensError_px(rig.left, board, corners.left);

@@ -91,8 +91,7 @@ std::string refuseResult(const ImuCameraRotation& result, bool mirrored,
          << "seen so: turn the rig about the other two as well (tilt and nod it by 20 deg, by hand)";
   } else if (mirrored) {
     text << "the IMU's axes are mirrored (left-handed): one of its angles has the wrong sign or they are in "
-            "the "
-            "wrong order; see angle_order in docs/imu.md";
+            "the wrong order; see angle_order in docs/imu.md";
   } else if (result.residual_rms_rad > params.max_residual_share * result.turn_rms_rad) {
     text << "cameras and IMU disagree by " << result.residual_rms_rad / kDegree << " deg in turns of "
          << result.turn_rms_rad / kDegree << " deg: is the IMU fixed to the cameras, does it send what its "

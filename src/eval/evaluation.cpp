@@ -47,8 +47,8 @@ AssociatedPoses associate(const EvaluationInput& input, const Poses& T_odom_base
   char message[320];
   std::snprintf(
       message, sizeof message,
-      "only %zu of %zu frames have ground truth: the frames are from %.3f to %.3f s, the ground truth "
-      "from %.3f to %.3f s; give the ground truth of this recording, in the same clock",
+      "only %zu of %zu frames have ground truth: the frames are from %.3f to %.3f s, the ground truth from "
+      "%.3f to %.3f s; give the ground truth of this recording, in the same clock",
       associated.frames.size(), input.frames.size(), input.frames.front().time_s, input.frames.back().time_s,
       input.ground_truth.front().time_s, input.ground_truth.back().time_s);
   throw InputError(message);

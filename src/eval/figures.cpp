@@ -105,15 +105,15 @@ std::string timeAxis(const Evaluation& evaluation) {
 
 Figure topView(const Evaluation& evaluation) {
   const std::string start =
-      ", $estimate every ::0::0 using 2:3 with points pt 6 ps 1.2 lw 2 lc rgb '#20262b' "
-      "title 'start'\n";
-  return {"path_top",
-          "Path in the x-y plane of odom (from above, where z of base_link points up): base_link, ground "
-          "truth laid onto the first pose. Equal scales.",
-          header("path_top", 560) + pathData(evaluation) + equalRanges(evaluation) +
-              "set size ratio -1\n"
-              "set xlabel 'x [m]'\nset ylabel 'y [m]'\n" +
-              pathPlot(evaluation, "2:3") + start};
+      ", $estimate every ::0::0 using 2:3 with points pt 6 ps 1.2 lw 2 lc rgb '#20262b' title 'start'\n";
+  return {
+      "path_top",
+      "Path in the x-y plane of odom (from above, where z of base_link points up): base_link, ground truth "
+      "laid onto the first pose. Equal scales.",
+      header("path_top", 560) + pathData(evaluation) + equalRanges(evaluation) +
+          "set size ratio -1\n"
+          "set xlabel 'x [m]'\nset ylabel 'y [m]'\n" +
+          pathPlot(evaluation, "2:3") + start};
 }
 
 Figure heightView(const Evaluation& evaluation) {
@@ -143,8 +143,8 @@ Figure featuresOverTime(const Evaluation& evaluation) {
             frame.lost ? 0.0 : kNone};
   };
   std::string plot =
-      "plot $counts using 1:2 with lines ls 1 title 'features', "
-      "$counts using 1:3 with lines ls 4 title 'inliers'";
+      "plot $counts using 1:2 with lines ls 1 title 'features', $counts using 1:3 with lines ls 4 title "
+      "'inliers'";
   if (evaluation.summary.frames_lost > 0) {
     plot += ", $counts using 1:4 with points ls 3 title 'frame lost'";
   }

@@ -17,8 +17,7 @@ std::string cell(double value) {
 
 std::string toCsv(const std::vector<FrameErrors>& frames) {
   std::string text =
-      "time_s,lost,features,inliers,x_m,y_m,z_m,true_x_m,true_y_m,true_z_m,absolute_error_m,"
-      "rotation_error_deg\n";
+      "time_s,lost,features,inliers,x_m,y_m,z_m,true_x_m,true_y_m,true_z_m,absolute_error_m,rotation_error_deg\n";
   for (const FrameErrors& frame : frames) {
     const Eigen::Vector3d truth =
         frame.ground_truth_m.value_or(Eigen::Vector3d::Constant(EvaluationSummary::kUnknown));

@@ -236,9 +236,10 @@ TEST(CheckCalibrationLive, ARecordingIsMeasured) {
   const RunningBoard board;
   fs::create_directories(folder);
   const std::string bag = folder + "/board.bag";
-  const CommandResult recorded = runCommand("rosbag record -O " + bag +
-                                            " --duration=8 camera/left/image_raw camera/right/image_raw "
-                                            "camera/left/camera_info camera/right/camera_info");
+  const CommandResult recorded =
+      runCommand("rosbag record -O " + bag +
+                 " --duration=8 camera/left/image_raw camera/right/image_raw camera/left/camera_info "
+                 "camera/right/camera_info");
   ASSERT_TRUE(fs::exists(bag)) << recorded.output;
   expectGoodWithTrueBaseline(checkCalibration(bag + " --size 8x6 --square 0.051"));
 }

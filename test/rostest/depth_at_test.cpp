@@ -56,8 +56,9 @@ TEST(DepthAt, GivenPixel) {
   const CommandResult result = Walls().show(kDepthAt + "--pixel 50 100 --frames 7 --each");
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 8) << result.output;
-  EXPECT_NE(result.output.find("pixel (50, 100): mean 2.000 m, standard deviation 0.000 m, from 2.000 to "
-                               "2.000 m, in 7 of 7 frames"),
+  EXPECT_NE(result.output.find(
+                "pixel (50, 100): mean 2.000 m, standard deviation 0.000 m, from 2.000 to 2.000 m, in 7 of 7 "
+                "frames"),
             std::string::npos)
       << result.output;
 }
@@ -86,13 +87,11 @@ TEST(DepthAt, ClickedPixels) {
   // A click into each wall, then a key. The image fills the window.
   const std::string script =
       "set -e; output=$(mktemp); " + kDepthAt +
-      "--frames 4 > $output & "
-      "window=$(xdotool search --sync --name 'depth_at' | tail -1); sleep 2; "
-      "click() { xdotool mousemove --window $window $1 $2 click 1; "
-      "for i in $(seq 100); do grep -q \"($1, $2)\" $output && return; sleep 0.2; done; }; "
-      "click 50 100; click 250 60; xdotool key --window $window q; "
-      "for i in $(seq 100); do kill -0 $! 2>/dev/null || break; sleep 0.2; done; "
-      "kill $! 2>/dev/null || true; cat $output; rm $output";
+      "--frames 4 > $output & window=$(xdotool search --sync --name 'depth_at' | tail -1); sleep 2; click() "
+      "{ xdotool mousemove --window $window $1 $2 click 1; for i in $(seq 100); do grep -q \"($1, $2)\" "
+      "$output && return; sleep 0.2; done; }; click 50 100; click 250 60; xdotool key --window $window q; "
+      "for i in $(seq 100); do kill -0 $! 2>/dev/null || break; sleep 0.2; done; kill $! 2>/dev/null || "
+      "true; cat $output; rm $output";
   const CommandResult result = Walls().show("xvfb-run -a bash -c '" + script + "'");
   EXPECT_NE(result.output.find("pixel (50, 100): mean 2.000 m"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("pixel (250, 60): mean 4.000 m"), std::string::npos) << result.output;

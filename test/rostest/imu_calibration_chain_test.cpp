@@ -24,8 +24,8 @@ using Eigen::Vector3d;
 constexpr double kRest_s = 4.0, kTurn_s = 5.5;  // a turn at 1.14 rad/s
 constexpr double kTilt_rad = 0.2;
 const std::string kErrors =
-    "--gyro-bias 0.02 -0.01 0.03 --gyro-noise 0.001 --accelerometer-offset 0.3 -0.2 0.1 "
-    "--accelerometer-gain 1.03 0.98 1.02 --accelerometer-noise 0.02";
+    "--gyro-bias 0.02 -0.01 0.03 --gyro-noise 0.001 --accelerometer-offset 0.3 -0.2 0.1 --accelerometer-gain "
+    "1.03 0.98 1.02 --accelerometer-noise 0.02";
 const Vector3d kBias(0.02, -0.01, 0.03), kOffset(0.3, -0.2, 0.1), kGain(1.03, 0.98, 1.02);
 
 /// At rest, then once about each axis; the turn about z with x pointing up, so that every axis meets gravity.

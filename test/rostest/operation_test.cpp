@@ -17,9 +17,9 @@ constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits thi
 
 const std::string kRos = "PATH=/usr/bin:$PATH ";
 // By its path: under rostest the package is found both in its source folder and in the devel space.
-const std::string kRobot = kRos + "exec roslaunch " LAUNCH_FOLDER
-                                  "/robot.launch simulated:=true "
-                                  "'settings:=rig.samples_per_pixel=1;timing.rate_hz=8' ";
+const std::string kRobot =
+    kRos + "exec roslaunch " LAUNCH_FOLDER
+           "/robot.launch simulated:=true 'settings:=rig.samples_per_pixel=1;timing.rate_hz=8' ";
 
 /// Waits for one message.
 bool comes(const std::string& topic, double seconds = kLongWait_s) {
@@ -75,9 +75,8 @@ TEST(Operation, AMasterThatIsReplacedAtOnceIsNoticedToo) {
 TEST(Operation, NodesStartInAnyOrder) {
   OwnMaster master;
   // The odometry before the master, the manager that it is to be loaded into, the cameras and the transforms.
-  BackgroundCommand odometry(kRos +
-                             "exec rosrun nodelet nodelet load stereo_nav/visual_odometry simulator "
-                             "__name:=visual_odometry");
+  BackgroundCommand odometry(
+      kRos + "exec rosrun nodelet nodelet load stereo_nav/visual_odometry simulator __name:=visual_odometry");
   ASSERT_TRUE(odometry.waitForOutput("Failed to contact master", kLongWait_s)) << odometry.output();
   master.start();
   BackgroundCommand robot(kRobot + "odometry:=false");

@@ -108,8 +108,8 @@ void CameraWorker::stream(V4l2Device& device) {
       throw CaptureError(
           Step::Wait, 0,
           device.path() + ": no image for " + std::to_string(config_.stall_timeout_s) +
-              " s: the camera stopped sending, as cheap ones do on a weak hub or a long cable; it is "
-              "opened anew");
+              " s: the camera stopped sending, as cheap ones do on a weak hub or a long cable; it is opened "
+              "anew");
     }
     latest_ns = kernel_.monotonicNow();
     const auto newest = takeNewest(device);

@@ -55,9 +55,8 @@ std::string busyAdvice(const std::string& path) {
 std::string streamOnAdvice(int error_number, const std::string& path) {
   if (error_number == ENOSPC) {
     return "the USB bus has no bandwidth left, as with two uncompressed cameras on one controller; use the "
-           "format "
-           "mjpg, a lower rate or a smaller image, or plug one camera into a port of another controller "
-           "(`rosrun stereo_nav list_cameras` shows which share one)";
+           "format mjpg, a lower rate or a smaller image, or plug one camera into a port of another "
+           "controller (`rosrun stereo_nav list_cameras` shows which share one)";
   }
   if (error_number == EBUSY) return busyAdvice(path);
   return "the camera refused to start; plug it in again, or try another format or rate";
@@ -71,12 +70,11 @@ std::string adviceFor(Step step, int error_number, const std::string& path) {
   switch (error_number) {
     case EACCES:
     case EPERM:
-      return "this user may not use it; cameras belong to the group `video`: "
-             "`sudo usermod -aG video $USER`, then log in again";
+      return "this user may not use it; cameras belong to the group `video`: `sudo usermod -aG video $USER`, "
+             "then log in again";
     case ENOENT:
       return "there is no such device now; is the camera plugged in? `rosrun stereo_nav list_cameras` shows "
-             "what is "
-             "connected";
+             "what is connected";
     case EBUSY:
       return busyAdvice(path);
     case EIO:

@@ -110,8 +110,8 @@ FoundDevice DeviceFinder::describe(const std::string& path) const {
     throw CaptureError(
         Step::Find, 0,
         path + " (" + capabilities.card +
-            ") does not capture video: a camera may have a second node for metadata; use the other "
-            "one, `rosrun stereo_nav list_cameras` shows it");
+            ") does not capture video: a camera may have a second node for metadata; use the other one, "
+            "`rosrun stereo_nav list_cameras` shows it");
   }
   FoundDevice device;
   device.path = path;

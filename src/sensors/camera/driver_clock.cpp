@@ -38,8 +38,7 @@ void DriverClock::recognise(const LentBuffer& buffer) {
     kind_ = Kind::RealTime;
     warning_ =
         "the driver stamps with the system's real time instead of the monotonic clock; stamps may jump when "
-        "the "
-        "clock is set";
+        "the clock is set";
   } else {
     kind_ = Kind::Unusable;
     warning_ =

@@ -41,9 +41,10 @@ SerialError explainOpenError(const std::string& path, int error_number) {
     case ENOENT:
     case ENXIO:
     case ENODEV:
-      return {PortFault::kMissing, path +
-                                       " does not exist: module not plugged in, or under another name; "
-                                       "`ls -l /dev/serial/by-id/` shows what is there"};
+      return {PortFault::kMissing,
+              path +
+                  " does not exist: module not plugged in, or under another name; `ls -l /dev/serial/by-id/` "
+                  "shows what is there"};
     case EACCES:
     case EPERM: {
       const std::string group = owningGroup(path);

@@ -36,10 +36,11 @@ void DepthStatistics::add(std::optional<double> depth_m) {
 std::string DepthStatistics::text() const {
   char text[200];
   if (depths_m_.empty()) {
-    std::snprintf(text, sizeof text,
-                  "no disparity at the pixel in any of %zu frames: too near for the range searched, hidden "
-                  "from the right camera, or without texture",
-                  frames_);
+    std::snprintf(
+        text, sizeof text,
+        "no disparity at the pixel in any of %zu frames: too near for the range searched, hidden from the "
+        "right camera, or without texture",
+        frames_);
     return text;
   }
   double sum = 0.0, squares = 0.0;

@@ -48,8 +48,7 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")      //
       ("rolling-shutter-ms", po::value<double>(),
        "time from an image's first row to its last, instead of what the recording says; 0: global shutter. "
-       "The "
-       "stamps are taken as those of the middle row")  //
+       "The stamps are taken as those of the middle row")  //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;

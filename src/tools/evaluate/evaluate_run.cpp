@@ -26,10 +26,11 @@ Eigen::Isometry3d requireTransform(const ros_io::Recording& recording, const std
                                    const char* target, const std::string& source) {
   const auto transform = recording.transform(target, source);
   if (transform) return *transform;
-  throw InputError(bag + ": tf_static has no transform from " + target + " to '" + source +
-                   "'; record /tf_static too, with a publisher such as `rosrun tf2_ros "
-                   "static_transform_publisher x y z yaw pitch roll " +
-                   target + " " + source + "`");
+  throw InputError(
+      bag + ": tf_static has no transform from " + target + " to '" + source +
+      "'; record /tf_static too, with a publisher such as `rosrun tf2_ros static_transform_publisher x y z "
+      "yaw pitch roll " +
+      target + " " + source + "`");
 }
 
 /// Rotation from the IMU to the left camera; identity where there is no IMU to turn.

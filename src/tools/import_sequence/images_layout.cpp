@@ -37,8 +37,7 @@ class CalibrationFile {
  private:
   static std::string expected() {
     return "expected are the lines 'fx', 'fy', 'cx', 'cy' in px and 'baseline' in m, such as 'fx 567.2', of "
-           "the "
-           "rectified pair";
+           "the rectified pair";
   }
 
   std::string path_;

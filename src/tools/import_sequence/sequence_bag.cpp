@@ -52,9 +52,10 @@ std::vector<Pair> choosePairs(const Sequence& sequence, const BagOptions& option
   summary.pairs = pairs.size();
   summary.left_without_partner = due - pairs.size();
   if (!pairs.empty()) return pairs;
-  throw InputError("no left image of " + std::to_string(left_count) +
-                   " has a right one; are the cameras' stamps "
-                   "of one clock, and is --right-lag-frames shorter than the recording?");
+  throw InputError(
+      "no left image of " + std::to_string(left_count) +
+      " has a right one; are the cameras' stamps of one clock, and is --right-lag-frames shorter than the "
+      "recording?");
 }
 
 std::string encodingOf(const cv::Mat& image) {

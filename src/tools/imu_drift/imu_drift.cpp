@@ -121,8 +121,9 @@ void plotDrift(const std::vector<imu::AngleSample>& samples, const std::string& 
            << " " << imu::wrapDegrees(a.pitch_deg - first.pitch_deg) << " "
            << imu::wrapDegrees(a.roll_deg - first.roll_deg) << "\n";
   }
-  script << "E\nplot $d using 1:2 with lines title 'yaw', $d using 1:3 with lines title 'pitch', "
-            "$d using 1:4 with lines title 'roll'\n";
+  script
+      << "E\nplot $d using 1:2 with lines title 'yaw', $d using 1:3 with lines title 'pitch', $d using 1:4 "
+         "with lines title 'roll'\n";
   plot(script.str(), folder + "/drift.svg");
 }
 

@@ -83,9 +83,8 @@ void printSharedControllers(const std::vector<FoundDevice>& cameras, std::ostrea
     if (paths.size() < 2) continue;
     out << "Share the USB controller " << controller << ":";
     for (const auto& path : paths) out << " " << path;
-    out << "\n  Uncompressed images of two cameras do not fit onto one USB 2 bus: use format mjpg, or "
-           "a port of "
-           "another controller.\n";
+    out << "\n  Uncompressed images of two cameras do not fit onto one USB 2 bus: use format mjpg, or a port "
+           "of another controller.\n";
   }
 }
 

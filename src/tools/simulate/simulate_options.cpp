@@ -46,8 +46,8 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
   po::options_description visible(
       "usage: simulate SCENARIO --output BAG [options]\n"
       "Drives a robot through a simulated world and records what its cameras and IMU see, and the truth. "
-      "SCENARIO is a "
-      "file, or the name of one in the package's config/scenarios. The same seed gives the same bytes");
+      "SCENARIO is a file, or the name of one in the package's config/scenarios. The same seed gives the "
+      "same bytes");
   visible.add_options()                                                                                 //
       ("help,h", "this text")                                                                           //
       ("parameters", "lists what a scenario may hold, with ranges and defaults")                        //

@@ -35,8 +35,8 @@ TEST(EurocLayout, theCameraFrameIsTheRectifiedOne) {
   const TemporaryFolder folder;
   writeEuroc(folder);
   const std::string rows =
-      "T_BS:\n  data: [0.995004165, 0, 0.099833417, %, 0, 1, 0, 0, -0.099833417, 0, "
-      "0.995004165, 0, 0, 0, 0, 1]\n";
+      "T_BS:\n  data: [0.995004165, 0, 0.099833417, %, 0, 1, 0, 0, -0.099833417, 0, 0.995004165, 0, 0, 0, 0, "
+      "1]\n";
   for (const auto& [camera, x] : {std::pair("cam0", "0.0"), std::pair("cam1", "0.1")}) {
     std::string text = eurocCamera(0.0);
     text = rows + text.substr(text.find("resolution"));
