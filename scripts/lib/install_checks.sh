@@ -68,14 +68,29 @@ nodelets_found() {
     [[ -f $prefix/$(sed -n 's/.*<library path="\([^"]*\)".*/\1.so/p' "$description") ]]
 }
 
-# external_program PROGRAM: the other package's program runs with an installed configuration.
-external_program() { as_user "$1" "$prefix/share/stereo_nav/config/vo_thesis.yaml"; }
+# external_programs FOLDER: the other package's programs, one for each library, run on what is installed.
+external_programs() (
+  share=$prefix/share/stereo_nav
+  cd "$work_dir"
+  ran=0
+  for program in "$1"/use_*; do
+    arguments=()
+    case ${program##*/} in
+      use_odometry) arguments=("$share/config/vo_thesis.yaml") ;;
+      use_ros) arguments=("$share/bags/arena_start.bag") ;;
+    esac
+    echo "$program" "${arguments[@]}"
+    as_user "$program" "${arguments[@]}" || { echo "$program failed"; exit 1; }
+    ran=$((ran + 1))
+  done
+  [[ $ran -eq $(find "$STEREO_NAV_ROOT/test/external_package" -name 'use_*.cpp' | wc -l) ]]
+)
 
 external_package_runs() {
   as_user cmake -S "$STEREO_NAV_ROOT/test/external_package" -B "$work_dir/external" \
     -DPYTHON_EXECUTABLE=/usr/bin/python3 &&
     cmake --build "$work_dir/external" &&
-    external_program "$work_dir/external/devel/lib/stereo_nav_user/use_odometry"
+    external_programs "$work_dir/external/devel/lib/stereo_nav_user"
 }
 
 # The other package's launch file loads the nodelet into its own manager, and odometry comes out of that.
@@ -101,5 +116,5 @@ check catkin_make catkin_make_install
 check catkin_make_package_found package_found
 check catkin_make_programs_complete programs_complete
 check catkin_make_nodelets_found nodelets_found
-check catkin_make_external_package external_program "$prefix/lib/stereo_nav_user/use_odometry"
+check catkin_make_external_package external_programs "$prefix/lib/stereo_nav_user"
 [[ $failures -eq 0 ]]
