@@ -123,7 +123,7 @@ TEST(StereoCaptureNode, PublishesMatchingPairsAndSavesTheCalibration) {
 
 std::int32_t controlOf(const std::string& path, const std::string& name) {
   camera::V4l2Device device(camera::linuxKernel(), path);
-  return device.getControl(*camera::findControl(device.controls(), name));
+  return device.controls().get(*device.controls().find(name));
 }
 
 TEST(StereoCaptureNode, ReconfiguresAndSurvivesADisconnection) {
@@ -148,9 +148,9 @@ TEST(StereoCaptureNode, ReconfiguresAndSurvivesADisconnection) {
 
   {
     camera::V4l2Device device(camera::linuxKernel(), "/dev/video1");
-    const auto* disconnect = camera::findControl(device.controls(), "disconnect");
+    const auto* disconnect = device.controls().find("disconnect");
     ASSERT_NE(disconnect, nullptr);
-    device.setControl(*disconnect, 1);
+    device.controls().set(*disconnect, 1);
   }
   EXPECT_TRUE(comesTrue([&] {
     return diagnosticsText(diagnostics, "Right camera").find("Reconnections: 1") != std::string::npos;

@@ -41,14 +41,14 @@ inline StereoConfig configOf(int width, int height) {
 /// Sets a control from outside, as v4l2-ctl would.
 inline std::int32_t setControl(const std::string& path, const std::string& name, std::int32_t value) {
   V4l2Device device(camera::linuxKernel(), path);
-  const Control* control = camera::findControl(device.controls(), name);
+  const Control* control = device.controls().find(name);
   if (control == nullptr) throw std::runtime_error(path + " has no control " + name);
-  return device.setControl(*control, value);
+  return device.controls().set(*control, value);
 }
 
 inline std::int32_t getControl(const std::string& path, const std::string& name) {
   V4l2Device device(camera::linuxKernel(), path);
-  return device.getControl(*camera::findControl(device.controls(), name));
+  return device.controls().get(*device.controls().find(name));
 }
 
 /// A button whose effect makes the device fail at once: reading it back is not possible.

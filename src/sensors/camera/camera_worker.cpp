@@ -74,14 +74,8 @@ void CameraWorker::openAndStream() {
   const FoundDevice found = locate();
   V4l2Device device(kernel_, found.path);
   format_ = device.configure(config_.format);
-  std::vector<ControlSetting> controls;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    controls = wanted_controls_;
-    pending_controls_.clear();
-    status_.control_warnings.clear();
-  }
-  applyControls(device, controls);
+  update([](CameraStatus& status) { status.control_warnings.clear(); });
+  applyControls(device, wanted_controls_.takeAll());
   device.startStreaming(config_.buffers);
   seen_before_ = found;
   update([&](CameraStatus& status) {
@@ -92,7 +86,7 @@ void CameraWorker::openAndStream() {
   sequence_.restart();
   rate_.restart();
   next_exposure_reading_ns_ = 0;
-  automatic_exposure_.reset();
+  exposure_reader_.forgetLast();
   stream(device);
 }
 
@@ -100,7 +94,12 @@ void CameraWorker::stream(V4l2Device& device) {
   std::int64_t latest_ns = kernel_.monotonicNow();
   const auto stall_ns = static_cast<std::int64_t>(config_.stall_timeout_s * 1e9);
   while (sleepUnlessStopped(Backoff::Duration(0))) {
-    applyPendingControls(device);
+    const std::vector<ControlSetting> changed = wanted_controls_.takeNew();
+    if (!changed.empty()) {
+      applyControls(device, changed);
+      next_exposure_reading_ns_ = 0;
+      exposure_reader_.forgetLast();
+    }
     allocate(format_.layout, config_.encoding, prepared_);
     if (!device.wait(kPoll_ms)) {
       if (kernel_.monotonicNow() - latest_ns < stall_ns) continue;
@@ -164,6 +163,28 @@ void CameraWorker::deliver(V4l2Device& device, const LentBuffer& buffer) {
     status.decode_time_s = 1e-9 * static_cast<double>(decoding_ns);
   });
   on_frame_(std::move(frame));
+}
+
+void CameraWorker::setControl(const std::string& name, std::int32_t value) {
+  wanted_controls_.set(name, value);
+}
+
+void CameraWorker::applyControls(V4l2Device& device, const std::vector<ControlSetting>& settings) {
+  const std::vector<std::string> warnings = device.controls().apply(settings);
+  for (const auto& warning : warnings) log_(Severity::Warning, config_.name + " camera: " + warning);
+  update([&](CameraStatus& status) {
+    status.control_warnings.insert(status.control_warnings.end(), warnings.begin(), warnings.end());
+  });
+}
+
+void CameraWorker::readExposure(V4l2Device& device) {
+  const ExposureReading reading = exposure_reader_.read(device.controls());
+  exposure_s_ = reading.exposure_s();
+  update([&](CameraStatus& status) {
+    status.exposure = reading.exposure;
+    status.gain = reading.gain;
+    status.exposure_untold = reading.untold;
+  });
 }
 
 void CameraWorker::noteUndecodable(const std::string& problem, std::int64_t now_ns) {

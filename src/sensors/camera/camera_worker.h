@@ -15,10 +15,12 @@
 #include "sensors/camera/controls.h"
 #include "sensors/camera/device_finder.h"
 #include "sensors/camera/driver_clock.h"
+#include "sensors/camera/exposure_reader.h"
 #include "sensors/camera/frame.h"
 #include "sensors/camera/frame_rate.h"
 #include "sensors/camera/sequence_counter.h"
 #include "sensors/camera/v4l2_device.h"
+#include "sensors/camera/wanted_controls.h"
 
 namespace stereo_nav::camera {
 
@@ -93,9 +95,7 @@ class CameraWorker {
   std::optional<LentBuffer> takeNewest(V4l2Device& device);
   void deliver(V4l2Device& device, const LentBuffer& buffer);
   void applyControls(V4l2Device& device, const std::vector<ControlSetting>& settings);
-  void applyPendingControls(V4l2Device& device);
   void readExposure(V4l2Device& device);
-  bool exposureIsTold(V4l2Device& device, std::int32_t exposure);
   void noteFailure(const CaptureError& error);
   void noteUndecodable(const std::string& problem, std::int64_t now_ns);
   void noteFirstFrame();
@@ -121,8 +121,7 @@ class CameraWorker {
   std::int64_t next_exposure_reading_ns_ = 0;
   std::int64_t next_undecodable_log_ns_ = 0;
   std::optional<double> exposure_s_;
-  std::optional<std::int32_t> automatic_exposure_;  ///< read last
-  bool exposure_changes_by_itself_ = false;
+  ExposureReader exposure_reader_;
   std::string logged_problem_;
   std::uint64_t starts_ = 0;
   bool frames_flow_ = false;
@@ -132,8 +131,7 @@ class CameraWorker {
   std::condition_variable stop_requested_;
   bool stopping_ = false;
   CameraStatus status_;
-  std::vector<ControlSetting> wanted_controls_;
-  std::vector<ControlSetting> pending_controls_;
+  WantedControls wanted_controls_;
 
   std::thread thread_;
 };

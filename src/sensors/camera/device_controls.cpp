@@ -1,6 +1,8 @@
+#include "sensors/camera/device_controls.h"
+
 #include <linux/videodev2.h>
 
-#include "sensors/camera/v4l2_device.h"
+#include <cerrno>
 
 namespace stereo_nav::camera {
 namespace {
@@ -14,12 +16,12 @@ bool holdsNumber(std::uint32_t type) {
 
 }  // namespace
 
-const std::vector<Control>& V4l2Device::controls() {
+const std::vector<Control>& DeviceControls::list() {
   if (!controls_) {
     controls_.emplace();
     v4l2_queryctrl query{};
     query.id = V4L2_CTRL_FLAG_NEXT_CTRL;
-    for (; call(VIDIOC_QUERYCTRL, &query) == 0; query.id |= V4L2_CTRL_FLAG_NEXT_CTRL) {
+    for (; descriptor_.call(VIDIOC_QUERYCTRL, &query) == 0; query.id |= V4L2_CTRL_FLAG_NEXT_CTRL) {
       if (!holdsNumber(query.type) || (query.flags & V4L2_CTRL_FLAG_DISABLED) != 0) continue;
       Control control;
       control.name = controlName(reinterpret_cast<const char*>(query.name));
@@ -37,32 +39,62 @@ const std::vector<Control>& V4l2Device::controls() {
   return *controls_;
 }
 
-std::vector<std::string> V4l2Device::menuOf(const Control& control) {
+std::vector<std::string> DeviceControls::menuOf(const Control& control) const {
   std::vector<std::string> entries;
   for (std::int32_t item = control.minimum; item <= control.maximum; ++item) {
     v4l2_querymenu menu{};
     menu.id = control.id;
     menu.index = static_cast<std::uint32_t>(item);
-    if (call(VIDIOC_QUERYMENU, &menu) == 0) {
+    if (descriptor_.call(VIDIOC_QUERYMENU, &menu) == 0) {
       entries.push_back(std::to_string(item) + ": " + reinterpret_cast<const char*>(menu.name));
     }
   }
   return entries;
 }
 
-std::int32_t V4l2Device::getControl(const Control& control) {
+std::int32_t DeviceControls::get(const Control& control) const {
   v4l2_control value{};
   value.id = control.id;
-  require(call(VIDIOC_G_CTRL, &value), Step::Control, "reading " + control.name);
+  descriptor_.callOrThrow(VIDIOC_G_CTRL, &value, Step::Control, "reading " + control.name);
   return value.value;
 }
 
-std::int32_t V4l2Device::setControl(const Control& control, std::int32_t value) {
+std::int32_t DeviceControls::set(const Control& control, std::int32_t value) const {
   v4l2_control setting{};
   setting.id = control.id;
   setting.value = value;
-  require(call(VIDIOC_S_CTRL, &setting), Step::Control, control.name + " = " + std::to_string(value));
-  return control.type == V4L2_CTRL_TYPE_BUTTON ? value : getControl(control);
+  descriptor_.callOrThrow(VIDIOC_S_CTRL, &setting, Step::Control,
+                          control.name + " = " + std::to_string(value));
+  return control.type == V4L2_CTRL_TYPE_BUTTON ? value : get(control);
+}
+
+std::optional<std::int32_t> DeviceControls::get(const std::string& name) {
+  const Control* control = find(name);
+  if (control == nullptr) return std::nullopt;
+  return get(*control);
+}
+
+std::vector<std::string> DeviceControls::apply(const std::vector<ControlSetting>& settings) {
+  std::vector<std::string> warnings;
+  for (const auto& setting : inOrderOfSetting(settings)) {
+    const Control* control = find(setting.name);
+    if (control == nullptr) {
+      warnings.push_back(setting.name + ": the camera has no such control");
+      continue;
+    }
+    try {
+      const std::int32_t active = set(*control, setting.value);
+      if (active != setting.value) {
+        warnings.push_back(control->name + " = " + std::to_string(setting.value) + ": the camera set " +
+                           std::to_string(active) + " (allowed: " + std::to_string(control->minimum) +
+                           " to " + std::to_string(control->maximum) + ")");
+      }
+    } catch (const CaptureError& error) {
+      if (error.errorNumber() == ENODEV) throw;
+      warnings.push_back(error.what());
+    }
+  }
+  return warnings;
 }
 
 }  // namespace stereo_nav::camera

@@ -31,38 +31,18 @@ bool LentBuffer::isBroken() const {
   return (flags & V4L2_BUF_FLAG_ERROR) != 0 || size == 0;
 }
 
-V4l2Device::V4l2Device(Kernel& kernel, const std::string& path) : kernel_(kernel), path_(path) {
-  descriptor_ = kernel_.open(path_);
-  if (descriptor_ < 0) throw explainFailure(Step::Open, -descriptor_, path_, "");
-  try {
-    queryCapabilities();
-  } catch (...) {
-    closeDescriptor();
-    throw;
-  }
+V4l2Device::V4l2Device(Kernel& kernel, const std::string& path)
+    : descriptor_(kernel, path), controls_(descriptor_) {
+  queryCapabilities();
 }
 
 V4l2Device::~V4l2Device() {
   stopStreaming();
-  closeDescriptor();
-}
-
-void V4l2Device::closeDescriptor() noexcept {
-  if (descriptor_ >= 0) kernel_.close(descriptor_);
-  descriptor_ = -1;
-}
-
-int V4l2Device::call(unsigned long request, void* argument) {
-  return kernel_.ioctl(descriptor_, request, argument);
-}
-
-void V4l2Device::require(int result, Step step, const std::string& details) const {
-  if (result < 0) throw explainFailure(step, -result, path_, details);
 }
 
 void V4l2Device::queryCapabilities() {
   v4l2_capability reply{};
-  require(call(VIDIOC_QUERYCAP, &reply), Step::Query, "");
+  descriptor_.callOrThrow(VIDIOC_QUERYCAP, &reply, Step::Query, "");
   capabilities_.driver = textOf(reply.driver);
   capabilities_.card = textOf(reply.card);
   capabilities_.bus_info = textOf(reply.bus_info);
@@ -77,7 +57,7 @@ std::vector<std::uint32_t> V4l2Device::formatsToTry(PixelFormat wanted) {
   std::vector<std::uint32_t> offered;
   v4l2_fmtdesc description{};
   description.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  for (; call(VIDIOC_ENUM_FMT, &description) == 0; ++description.index) {
+  for (; descriptor_.call(VIDIOC_ENUM_FMT, &description) == 0; ++description.index) {
     offered.push_back(description.pixelformat);
   }
   std::vector<std::uint32_t> usable;
@@ -91,7 +71,7 @@ std::vector<std::uint32_t> V4l2Device::formatsToTry(PixelFormat wanted) {
     std::string names;
     for (const auto fourcc : offered) names += (names.empty() ? "" : ", ") + fourccText(fourcc);
     throw CaptureError(Step::SetFormat, 0,
-                       path_ + ": offers " + (names.empty() ? "no image format" : names) +
+                       path() + ": offers " + (names.empty() ? "no image format" : names) +
                            ", none of MJPG, YUYV, UYVY, NV12, GREY: this camera cannot be used");
   }
   return usable;
@@ -107,7 +87,7 @@ ActiveFormat V4l2Device::configure(const FormatRequest& request) {
     format.fmt.pix.pixelformat = fourcc;
     format.fmt.pix.field = V4L2_FIELD_NONE;
     format_text_ = sizeText(fourcc, format.fmt.pix.width, format.fmt.pix.height);
-    require(call(VIDIOC_S_FMT, &format), Step::SetFormat, format_text_);
+    descriptor_.callOrThrow(VIDIOC_S_FMT, &format, Step::SetFormat, format_text_);
     const auto& active = format.fmt.pix;
     const bool as_wanted = pixelFormatOf(active.pixelformat) == pixelFormatOf(fourcc) &&
                            static_cast<int>(active.width) == request.width &&
@@ -125,7 +105,8 @@ ActiveFormat V4l2Device::configure(const FormatRequest& request) {
   }
   throw CaptureError(
       Step::SetFormat, 0,
-      path_ + ": asked for " + std::to_string(request.width) + "x" + std::to_string(request.height) + " in " +
+      path() + ": asked for " + std::to_string(request.width) + "x" + std::to_string(request.height) +
+          " in " +
           (request.format == PixelFormat::Any ? "any format" : fourccText(fourccOf(request.format))) +
           ", the driver offers " + got +
           " instead; set width, height and format to what `rosrun stereo_nav list_cameras` shows");
@@ -138,7 +119,8 @@ double V4l2Device::setRate(double rate_hz) {
   constexpr std::uint32_t kScale = 1000;
   interval.numerator = kScale;
   interval.denominator = static_cast<std::uint32_t>(std::lround(rate_hz * kScale));
-  if (call(VIDIOC_S_PARM, &parameters) < 0 || interval.numerator == 0) return 0.0;  // not every driver can
+  const bool accepted = descriptor_.call(VIDIOC_S_PARM, &parameters) == 0 && interval.numerator != 0;
+  if (!accepted) return 0.0;  // not every driver can
   return static_cast<double>(interval.denominator) / interval.numerator;
 }
 
@@ -146,7 +128,7 @@ void V4l2Device::startStreaming(int buffers) {
   try {
     mapBuffers(buffers);
     int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    require(call(VIDIOC_STREAMON, &type), Step::StreamOn, format_text_);
+    descriptor_.callOrThrow(VIDIOC_STREAMON, &type, Step::StreamOn, format_text_);
     streaming_ = true;
   } catch (...) {
     unmapBuffers();
@@ -159,42 +141,42 @@ void V4l2Device::mapBuffers(int count) {
   request.count = static_cast<std::uint32_t>(count);
   request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   request.memory = V4L2_MEMORY_MMAP;
-  require(call(VIDIOC_REQBUFS, &request), Step::GetBuffers, format_text_);
+  descriptor_.callOrThrow(VIDIOC_REQBUFS, &request, Step::GetBuffers, format_text_);
   for (std::uint32_t index = 0; index < request.count; ++index) {
     v4l2_buffer buffer{};
     buffer.index = index;
     buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     buffer.memory = V4L2_MEMORY_MMAP;
-    require(call(VIDIOC_QUERYBUF, &buffer), Step::GetBuffers, format_text_);
-    void* address = kernel_.map(descriptor_, buffer.length, buffer.m.offset);
-    if (address == nullptr) throw explainFailure(Step::GetBuffers, ENOMEM, path_, "mapping memory");
+    descriptor_.callOrThrow(VIDIOC_QUERYBUF, &buffer, Step::GetBuffers, format_text_);
+    void* address = descriptor_.kernel().map(descriptor_.number(), buffer.length, buffer.m.offset);
+    if (address == nullptr) throw explainFailure(Step::GetBuffers, ENOMEM, path(), "mapping memory");
     buffers_.push_back({address, buffer.length});
-    require(call(VIDIOC_QBUF, &buffer), Step::Queue, format_text_);
+    descriptor_.callOrThrow(VIDIOC_QBUF, &buffer, Step::Queue, format_text_);
   }
   if (buffers_.size() < 2) {
-    throw CaptureError(Step::GetBuffers, 0, path_ + ": the driver gave fewer than two image buffers");
+    throw CaptureError(Step::GetBuffers, 0, path() + ": the driver gave fewer than two image buffers");
   }
 }
 
 void V4l2Device::unmapBuffers() noexcept {
-  for (const auto& buffer : buffers_) kernel_.unmap(buffer.address, buffer.length);
+  for (const auto& buffer : buffers_) descriptor_.kernel().unmap(buffer.address, buffer.length);
   buffers_.clear();
   v4l2_requestbuffers none{};
   none.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   none.memory = V4L2_MEMORY_MMAP;
-  call(VIDIOC_REQBUFS, &none);  // fails on a device that has gone, which frees them, too
+  descriptor_.call(VIDIOC_REQBUFS, &none);  // fails on a device that has gone, which frees them, too
 }
 
 void V4l2Device::stopStreaming() noexcept {
   if (!streaming_) return;
   streaming_ = false;
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  call(VIDIOC_STREAMOFF, &type);
+  descriptor_.call(VIDIOC_STREAMOFF, &type);
   unmapBuffers();
 }
 
 bool V4l2Device::wait(int timeout_ms) {
-  switch (kernel_.wait(descriptor_, timeout_ms)) {
+  switch (descriptor_.kernel().wait(descriptor_.number(), timeout_ms)) {
     case Kernel::Ready::No:
       return false;
     case Kernel::Ready::Frame:
@@ -206,20 +188,20 @@ bool V4l2Device::wait(int timeout_ms) {
   v4l2_buffer buffer{};
   buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   buffer.memory = V4L2_MEMORY_MMAP;
-  const int result = call(VIDIOC_DQBUF, &buffer);
-  throw explainFailure(Step::Wait, result < 0 && result != -EAGAIN ? -result : EIO, path_, format_text_);
+  const int result = descriptor_.call(VIDIOC_DQBUF, &buffer);
+  throw explainFailure(Step::Wait, result < 0 && result != -EAGAIN ? -result : EIO, path(), format_text_);
 }
 
 std::optional<LentBuffer> V4l2Device::dequeue() {
   v4l2_buffer buffer{};
   buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   buffer.memory = V4L2_MEMORY_MMAP;
-  const int result = call(VIDIOC_DQBUF, &buffer);
+  const int result = descriptor_.call(VIDIOC_DQBUF, &buffer);
   if (result == -EAGAIN) return std::nullopt;
-  require(result, Step::Dequeue, format_text_);
-  if (buffer.index >= buffers_.size()) throw explainFailure(Step::Dequeue, EIO, path_, "unknown buffer");
+  if (result < 0) throw explainFailure(Step::Dequeue, -result, path(), format_text_);
+  if (buffer.index >= buffers_.size()) throw explainFailure(Step::Dequeue, EIO, path(), "unknown buffer");
   LentBuffer lent;
-  lent.dequeued_ns = kernel_.monotonicNow();
+  lent.dequeued_ns = descriptor_.kernel().monotonicNow();
   lent.index = buffer.index;
   lent.data = static_cast<const std::uint8_t*>(buffers_[buffer.index].address);
   lent.size = std::min<std::size_t>(buffer.bytesused, buffers_[buffer.index].length);
@@ -235,7 +217,7 @@ void V4l2Device::giveBack(const LentBuffer& lent) {
   buffer.index = lent.index;
   buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   buffer.memory = V4L2_MEMORY_MMAP;
-  require(call(VIDIOC_QBUF, &buffer), Step::Queue, format_text_);
+  descriptor_.callOrThrow(VIDIOC_QBUF, &buffer, Step::Queue, format_text_);
 }
 
 }  // namespace stereo_nav::camera

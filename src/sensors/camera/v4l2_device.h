@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "sensors/camera/capture_error.h"
-#include "sensors/camera/controls.h"
 #include "sensors/camera/decoder.h"
+#include "sensors/camera/device_controls.h"
 #include "sensors/camera/kernel.h"
+#include "sensors/camera/offered_formats.h"
 #include "sensors/camera/pixel_format.h"
+#include "sensors/camera/v4l2_descriptor.h"
 
 namespace stereo_nav::camera {
 
@@ -35,15 +37,6 @@ struct ActiveFormat {
   double rate_hz = 0.0;  ///< 0 if the driver does not tell
 };
 
-/// One size of one format, with the rates it can have.
-struct OfferedFormat {
-  std::uint32_t fourcc = 0;
-  std::string description;
-  int width = 0;
-  int height = 0;
-  std::vector<double> rates_hz;
-};
-
 /// A frame in the driver's memory, lent until it is given back.
 struct LentBuffer {
   std::uint32_t index = 0;
@@ -67,13 +60,13 @@ class V4l2Device {
   V4l2Device(const V4l2Device&) = delete;
   V4l2Device& operator=(const V4l2Device&) = delete;
 
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return descriptor_.path(); }
   const Capabilities& capabilities() const { return capabilities_; }
 
   /// Sets size, format and rate. Throws when the driver changes the size or the format; another rate is
   /// accepted and told in the result.
   ActiveFormat configure(const FormatRequest& request);
-  std::vector<OfferedFormat> offeredFormats();
+  std::vector<OfferedFormat> offeredFormats() const { return camera::offeredFormats(descriptor_); }
 
   void startStreaming(int buffers);
   void stopStreaming() noexcept;
@@ -83,11 +76,7 @@ class V4l2Device {
   std::optional<LentBuffer> dequeue();
   void giveBack(const LentBuffer& buffer);
 
-  /// Asked from the driver on first use.
-  const std::vector<Control>& controls();
-  std::int32_t getControl(const Control& control);
-  /// Returns the value that the driver then has. Throws when it refuses.
-  std::int32_t setControl(const Control& control, std::int32_t value);
+  DeviceControls& controls() { return controls_; }
 
  private:
   struct Mapping {
@@ -95,22 +84,15 @@ class V4l2Device {
     std::size_t length;
   };
 
-  int call(unsigned long request, void* argument);
-  void require(int result, Step step, const std::string& details) const;
-  void closeDescriptor() noexcept;
   void queryCapabilities();
-  std::vector<std::string> menuOf(const Control& control);
   std::vector<std::uint32_t> formatsToTry(PixelFormat wanted);
   double setRate(double rate_hz);
-  std::vector<double> offeredRates(std::uint32_t fourcc, int width, int height);
   void mapBuffers(int count);
   void unmapBuffers() noexcept;
 
-  Kernel& kernel_;
-  std::string path_;
-  int descriptor_ = -1;
+  V4l2Descriptor descriptor_;
   Capabilities capabilities_;
-  std::optional<std::vector<Control>> controls_;
+  DeviceControls controls_;
   std::vector<Mapping> buffers_;
   std::string format_text_;  ///< for messages
   bool streaming_ = false;

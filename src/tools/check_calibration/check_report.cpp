@@ -102,6 +102,24 @@ std::string verdictText(const CalibrationCheck& check) {
   return text;
 }
 
+nlohmann::json viewJson(const ViewFigures& view) {
+  const Eigen::Vector3d p = view.pose.T_camera_board.translation();
+  const auto angles = calibration::boardAngles(view.pose.T_camera_board.linear());
+  const Vector6d sigma = view.pose.covariance.diagonal().cwiseSqrt();
+  return {{"name", view.name},
+          {"position_m", {p.x(), p.y(), p.z()}},
+          {"distance_m", view.distance_m()},
+          {"yaw_deg", degrees(angles.yaw_rad)},
+          {"pitch_deg", degrees(angles.pitch_rad)},
+          {"roll_deg", degrees(angles.roll_rad)},
+          {"rotation_sigma_deg", {degrees(sigma(3)), degrees(sigma(4)), degrees(sigma(5))}},
+          {"left_lens_px", view.left_lens_px},
+          {"right_lens_px", view.right_lens_px},
+          {"epipolar_rms_px", view.epipolar_rms_px},
+          {"disparity_rms_px", view.disparity_rms_px},
+          {"scale", view.scale}};
+}
+
 }  // namespace
 
 std::string viewHeading() {
@@ -196,24 +214,7 @@ std::string reportJson(const CheckedInput& input, const CalibrationCheck& check)
         {"least", one.statistics.least},
         {"most", one.statistics.most}};
   }
-  for (const ViewFigures& view : check.views) {
-    const Eigen::Vector3d p = view.pose.T_camera_board.translation();
-    const auto angles = calibration::boardAngles(view.pose.T_camera_board.linear());
-    const Vector6d sigma = view.pose.covariance.diagonal().cwiseSqrt();
-    report["views"].push_back(
-        {{"name", view.name},
-         {"position_m", {p.x(), p.y(), p.z()}},
-         {"distance_m", view.distance_m()},
-         {"yaw_deg", degrees(angles.yaw_rad)},
-         {"pitch_deg", degrees(angles.pitch_rad)},
-         {"roll_deg", degrees(angles.roll_rad)},
-         {"rotation_sigma_deg", {degrees(sigma(3)), degrees(sigma(4)), degrees(sigma(5))}},
-         {"left_lens_px", view.left_lens_px},
-         {"right_lens_px", view.right_lens_px},
-         {"epipolar_rms_px", view.epipolar_rms_px},
-         {"disparity_rms_px", view.disparity_rms_px},
-         {"scale", view.scale}});
-  }
+  for (const ViewFigures& view : check.views) report["views"].push_back(viewJson(view));
   return report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -43,11 +43,11 @@ void printFormats(V4l2Device& device, std::ostream& out) {
 }
 
 void printControls(V4l2Device& device, std::ostream& out) {
-  for (const auto& control : device.controls()) {
+  for (const auto& control : device.controls().list()) {
     out << "    " << std::left << std::setw(34) << control.name << std::right << control.minimum << " to "
         << control.maximum << ", default " << control.default_value;
     try {
-      out << ", now " << device.getControl(control);
+      out << ", now " << device.controls().get(control);
     } catch (const CaptureError&) {
       // Buttons and write-only controls have no value.
     }
