@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
-# Check what no compiler checks: package, formatting, scripts, launch files, documents.
+# Check what no compiler checks: package, formatting, floors, sizes, scripts, launch files, documents.
 #
-#   scripts/lint.sh
+#   scripts/lint.sh [--tidy [BUILD_DIR]]
+#
+# --tidy runs clang-tidy instead, over all of src/ as BUILD_DIR (build/ unless given) compiles it; .clang-tidy lists the
+# checks. That takes minutes.
 #
 # Prints one line a check in the Test Anything Protocol, what is wrong on standard error. A check whose tool is missing
 # is skipped. Works on the files that git tracks.
@@ -80,6 +83,23 @@ path_check() (
   ! git grep -nIP '(?<![\w.~}-])(?<![\w}]")/(work|home|root|Users)/[\w.-]+' -- . ':!LICENSE'
 )
 
+floor_check() (/usr/bin/python3 scripts/lib/check_floors.py .)
+
+size_check() (
+  git ls-files -z 'src/*.h' 'src/*.cpp' 'include/*.h' | xargs -0 -r /usr/bin/python3 scripts/lib/check_sizes.py
+)
+
+# Every public class, function and field is documented; no documentation is wrong.
+doxygen_check() (
+  need doxygen
+  folder=$(mktemp -d)
+  trap 'rm -rf "$folder"' EXIT
+  warnings=$({ cat Doxyfile; echo "OUTPUT_DIRECTORY=$folder"; } | doxygen - 2>&1 >/dev/null)
+  [[ -z $warnings ]] && return
+  printf '%s\n' "${warnings//$PWD\//}"
+  return 1
+)
+
 link_check() (
   git ls-files -z '*.md' | xargs -0 -r /usr/bin/python3 scripts/lib/check_links.py
 )
@@ -93,6 +113,16 @@ command_check() (
   /usr/bin/python3 scripts/lib/doc_commands.py .
 )
 
+case ${1:-} in
+  --tidy)
+    check clang_tidy /usr/bin/python3 scripts/lib/tidy.py "${2:-build}"
+    [[ $failures -eq 0 ]]
+    exit
+    ;;
+  "") ;;
+  *) die "unknown option '$1': --tidy or nothing" ;;
+esac
+
 check catkin_lint catkin_lint_check
 check clang_format format_check
 check shellcheck shell_check
@@ -100,6 +130,8 @@ check xml xml_check
 check yaml yaml_check
 check python python_check
 check machine_paths path_check
+check floors floor_check
+check sizes size_check
 check links link_check
 check messages message_check
 check commands command_check

@@ -31,9 +31,9 @@ std::optional<BoardPose> estimateBoardPose(const vision::StereoCalibration& cali
 /// optical axes. Yaw > 0: its right edge is nearer than the left one; pitch > 0: its lower edge is farther
 /// than the upper one; roll > 0: clockwise as seen.
 struct BoardAngles {
-  double yaw_rad;
-  double pitch_rad;
-  double roll_rad;
+  double yaw_rad;    ///< about the vertical axis
+  double pitch_rad;  ///< about the horizontal axis
+  double roll_rad;   ///< about the viewing direction
 };
 BoardAngles boardAngles(const Eigen::Matrix3d& R_camera_board);
 

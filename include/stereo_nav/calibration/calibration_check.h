@@ -10,14 +10,15 @@ namespace stereo_nav::calibration {
 
 /// What one view of the board says about the calibration.
 struct ViewFigures {
-  std::string name;  ///< of the image pair
-  BoardPose pose;
+  std::string name;         ///< of the image pair
+  BoardPose pose;           ///< of the board in this view
   double left_lens_px;      ///< lensError_px() of the left camera
   double right_lens_px;     ///< ... of the right one
   double epipolar_rms_px;   ///< of the row in the left minus the row in the right rectified image
   double epipolar_mean_px;  ///< its mean over the board
   double disparity_rms_px;  ///< of the disparity minus that of the pose that fits best
   double scale;             ///< triangulated size of the board / its true size
+  /// From the left camera to the middle of the board.
   double distance_m() const { return pose.T_camera_board.translation().norm(); }
 };
 
@@ -28,28 +29,30 @@ ViewFigures measureView(const StereoRig& rig, const Checkerboard& board, const s
 
 /// A figure that must be at most (in magnitude) `limit`, else the calibration is poor.
 struct Criterion {
-  std::string name;
-  std::string unit;
-  double value;
-  double limit;
+  std::string name;    ///< what the figure measures
+  std::string unit;    ///< of value and limit
+  double value;        ///< the figure found
+  double limit;        ///< the largest magnitude that is good
   std::string remedy;  ///< what to do when it is not met
+  /// Whether the figure is good enough.
   bool met() const { return value <= limit && value >= -limit; }
 };
 
 /// Everything about a calibration that a set of views tells.
 struct CalibrationCheck {
-  std::vector<ViewFigures> views;
-  double left_lens_px;  ///< RMS over all corners of all views
-  double right_lens_px;
-  double reprojection_px;  ///< ... with one pose for both cameras, in the rectified images, per corner
-  double epipolar_rms_px;
-  double epipolar_mean_px;
-  double disparity_rms_px;
-  double scale_error;  ///< median of ViewFigures::scale, less 1
-  double seen_share;   ///< of the left image's 4x3 parts that held a corner
-  std::vector<Criterion> criteria;
-  std::vector<std::string> notes;  ///< what the figures cannot tell, since the views lack it
+  std::vector<ViewFigures> views;  ///< one for each view
+  double left_lens_px;             ///< RMS over all corners of all views
+  double right_lens_px;            ///< the same of the right camera
+  double reprojection_px;   ///< ... with one pose for both cameras, in the rectified images, per corner
+  double epipolar_rms_px;   ///< RMS of ViewFigures::epipolar_rms_px
+  double epipolar_mean_px;  ///< mean of ViewFigures::epipolar_mean_px
+  double disparity_rms_px;  ///< RMS of ViewFigures::disparity_rms_px
+  double scale_error;       ///< median of ViewFigures::scale, less 1
+  double seen_share;        ///< of the left image's 4x3 parts that held a corner
+  std::vector<Criterion> criteria;  ///< what the verdict is made of
+  std::vector<std::string> notes;   ///< what the figures cannot tell, since the views lack it
 
+  /// Whether all criteria are met.
   bool good() const;
 
   /// Standard deviation of a depth from one disparity with the noise measured: z^2 sigma_d / (f b).
@@ -59,11 +62,11 @@ struct CalibrationCheck {
 /// Limits of the verdict. The reprojection and epipolar ones are twice what camera_calibration's tutorials
 /// call acceptable (0.25 px); block matching and the odometry begin to lose matches beyond.
 struct CheckLimits {
-  double lens_px = 0.5;
-  double reprojection_px = 0.7;
-  double epipolar_px = 0.5;
-  double disparity_px = 0.5;
-  double scale = 0.01;
+  double lens_px = 0.5;          ///< of CalibrationCheck::left_lens_px and right_lens_px
+  double reprojection_px = 0.7;  ///< of CalibrationCheck::reprojection_px
+  double epipolar_px = 0.5;      ///< of CalibrationCheck::epipolar_rms_px and epipolar_mean_px
+  double disparity_px = 0.5;     ///< of CalibrationCheck::disparity_rms_px
+  double scale = 0.01;           ///< of CalibrationCheck::scale_error
 };
 
 /// `views` must not be empty. Corners are needed once more to see which part of the image they cover.

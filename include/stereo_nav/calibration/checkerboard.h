@@ -28,8 +28,8 @@ std::optional<std::vector<cv::Point2f>> findCorners(const cv::Mat& image, const 
 
 /// One view of the board by both cameras, raw pixels, equal index = equal corner.
 struct BoardCorners {
-  std::vector<cv::Point2f> left;
-  std::vector<cv::Point2f> right;
+  std::vector<cv::Point2f> left;   ///< corners in the left image, px
+  std::vector<cv::Point2f> right;  ///< corners in the right image, px
 };
 
 /// Both images' corners with one order for the two; nothing unless both show the whole board. Throws

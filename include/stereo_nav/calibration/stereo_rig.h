@@ -22,13 +22,14 @@ struct CameraModel {
 
   /// Angle between the rays of the middles of two opposite edges of the raw image, rad.
   double horizontalView_rad() const;
+  /// The same of the upper and lower edge, rad.
   double verticalView_rad() const;
 };
 
 /// A calibrated pair.
 struct StereoRig {
-  CameraModel left;
-  CameraModel right;
+  CameraModel left;                     ///< the camera whose optical frame is that of the pair
+  CameraModel right;                    ///< the other camera
   vision::StereoCalibration rectified;  ///< what both P say
 };
 

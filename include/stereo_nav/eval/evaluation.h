@@ -16,8 +16,8 @@ struct FrameRecord {
   double time_s = 0.0;                           ///< stamp of the left image
   std::optional<Eigen::Isometry3d> T_odom_base;  ///< absent: the frame is lost
   unsigned features = 0;                         ///< that the frame had to work with
-  unsigned inliers = 0;
-  FrameTiming timing;
+  unsigned inliers = 0;                          ///< features that agree with the motion found
+  FrameTiming timing;                            ///< how long the frame took
 };
 
 /// All that the errors of a run are computed from.
@@ -35,36 +35,37 @@ struct EvaluationInput {
 /// relative and end errors and the path are those of the left camera; the errors per axis are those of
 /// base_link.
 struct EvaluationSummary {
+  /// The value of a number that cannot be known.
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-  std::size_t frames = 0;
-  std::size_t frames_lost = 0;
+  std::size_t frames = 0;       ///< all input frames
+  std::size_t frames_lost = 0;  ///< those without a pose
   double path_length_m =
       kUnknown;                  ///< of the ground truth at the frames; of the estimate where there is none
   double ate_rmse_m = kUnknown;  ///< positions after SE(3) alignment without scale
   double rpe_translation_percent = kUnknown;  ///< relativeError()
-  double rpe_rotation_deg_per_m = kUnknown;
-  std::vector<double> segment_lengths_m;
+  double rpe_rotation_deg_per_m = kUnknown;   ///< relativeError()
+  std::vector<double> segment_lengths_m;      ///< over which relativeError() is taken
   double end_error_percent =
       kUnknown;  ///< distance at the last frame, first poses laid together, of the path
   double rmse_x_m =
       kUnknown;  ///< along an axis of `odom`, first poses laid together, as the thesis reports it
-  double rmse_y_m = kUnknown;
-  double mae_x_m = kUnknown;
-  double mae_y_m = kUnknown;
-  double inliers_mean = kUnknown;   ///< over all frames but the first, which has no motion
-  double features_mean = kUnknown;  ///< over all frames
-  std::string config;
-  std::string input;
+  double rmse_y_m = kUnknown;                ///< the same along the y axis
+  double mae_x_m = kUnknown;                 ///< mean absolute error along the x axis
+  double mae_y_m = kUnknown;                 ///< the same along the y axis
+  double inliers_mean = kUnknown;            ///< over all frames but the first, which has no motion
+  double features_mean = kUnknown;           ///< over all frames
+  std::string config;                        ///< EvaluationInput::config
+  std::string input;                         ///< EvaluationInput::input
   std::size_t frames_with_ground_truth = 0;  ///< those the errors are taken over
 };
 
 /// One frame as the report draws it.
 struct FrameErrors {
-  double time_s = 0.0;  ///< since the first frame
-  bool lost = false;
-  unsigned features = 0;
-  unsigned inliers = 0;
+  double time_s = 0.0;                                      ///< since the first frame
+  bool lost = false;                                        ///< the frame has no pose
+  unsigned features = 0;                                    ///< FrameRecord::features
+  unsigned inliers = 0;                                     ///< FrameRecord::inliers
   Eigen::Vector3d position_m;                               ///< base_link in odom, held while lost
   std::optional<Eigen::Vector3d> ground_truth_m;            ///< base_link in odom, first poses laid together
   double absolute_error_m = EvaluationSummary::kUnknown;    ///< left camera, after SE(3) alignment
@@ -73,8 +74,8 @@ struct FrameErrors {
 
 /// The errors of a run, as a whole and frame by frame.
 struct Evaluation {
-  EvaluationSummary summary;
-  std::vector<FrameErrors> frames;
+  EvaluationSummary summary;        ///< of the whole run
+  std::vector<FrameErrors> frames;  ///< one for each input frame
 };
 
 /// Throws InputError when there is no frame, or when there is ground truth but fewer than three frames

@@ -16,10 +16,10 @@ struct FrameTiming {
 
 /// timing.json.
 struct TimingSummary {
-  double median_ms;
-  double p95_ms;
-  double p99_ms;
-  double max_ms;
+  double median_ms;  ///< of the time per frame
+  double p95_ms;     ///< 95th percentile
+  double p99_ms;     ///< 99th percentile
+  double max_ms;     ///< of the slowest frame
   std::vector<std::pair<std::string, double>>
       stage_medians_ms;        ///< in the order in which the stages first appeared
   double disparity_median_ms;  ///< NaN: no disparity map was computed

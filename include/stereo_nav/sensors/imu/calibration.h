@@ -12,22 +12,25 @@ namespace stereo_nav::imu {
 
 /// x, y, z as a section of a parameter file.
 struct VectorParams {
-  Eigen::Vector3d value;
-  double limit;
-  std::string unit;
+  Eigen::Vector3d value;  ///< x, y, z
+  double limit;           ///< largest magnitude of a component that a file may hold
+  std::string unit;       ///< for the documentation
 
+  /// Names, ranges and meanings of the parameters.
   void describe(ParameterVisitor& visitor);
 };
 
 /// calibrated = (measured - offset) * scale, per axis; the gyroscope has an offset (its bias) only.
 struct ImuCalibration {
-  VectorParams gyroscope_bias{Eigen::Vector3d::Zero(), 1.0, "rad/s"};
-  VectorParams accelerometer_offset{Eigen::Vector3d::Zero(), 20.0, "m/s^2"};
-  VectorParams accelerometer_scale{Eigen::Vector3d::Ones(), 2.0, ""};
-  VectorParams magnetometer_offset{Eigen::Vector3d::Zero(), 5000.0, "uT"};
-  VectorParams magnetometer_scale{Eigen::Vector3d::Ones(), 100.0, ""};
+  VectorParams gyroscope_bias{Eigen::Vector3d::Zero(), 1.0, "rad/s"};  ///< rate that is measured at rest
+  VectorParams accelerometer_offset{Eigen::Vector3d::Zero(), 20.0, "m/s^2"};  ///< subtracted first
+  VectorParams accelerometer_scale{Eigen::Vector3d::Ones(), 2.0, ""};         ///< factor per axis
+  VectorParams magnetometer_offset{Eigen::Vector3d::Zero(), 5000.0, "uT"};    ///< subtracted first
+  VectorParams magnetometer_scale{Eigen::Vector3d::Ones(), 100.0, ""};        ///< factor per axis
 
+  /// Names, ranges and meanings of the parameters.
   void describe(ParameterVisitor& visitor);
+  /// The measurement with the calibration applied, taken at `time_s`.
   InertialSample apply(const RawMeasurement& measured, double time_s) const;
 };
 
@@ -36,12 +39,14 @@ ImuCalibration loadCalibration(const std::string& path);
 /// Replaces the file in one step. Throws std::runtime_error.
 void saveCalibration(const ImuCalibration& calibration, const std::string& path);
 
+/// How long the module must rest, and what counts as rest.
 struct GyroCalibrationParams {
-  double duration_s = 15.0;
-  double max_rate_stddev_rad_s = 0.02;
-  double max_acceleration_stddev_m_s2 = 0.3;
-  double max_mean_rate_rad_s = 0.2;
+  double duration_s = 15.0;                   ///< how long the module must rest
+  double max_rate_stddev_rad_s = 0.02;        ///< largest spread of the rates at rest
+  double max_acceleration_stddev_m_s2 = 0.3;  ///< largest spread of the accelerations at rest
+  double max_mean_rate_rad_s = 0.2;           ///< largest bias of a sound gyroscope
 
+  /// Names, ranges and meanings of the parameters.
   void describe(ParameterVisitor& visitor);
 };
 
@@ -49,17 +54,22 @@ struct GyroCalibrationParams {
 /// difference between the two halves of the time, or the mean itself is too large.
 class GyroCalibrator {
  public:
+  /// Collects from its first sample on.
   explicit GyroCalibrator(const GyroCalibrationParams& params) : params_(params) {}
 
+  /// A sample in order of time: rad/s and m/s^2.
   void add(double time_s, const Eigen::Vector3d& angular_velocity, const Eigen::Vector3d& acceleration);
+  /// Whether samples of `duration_s` were added.
   bool complete() const;
 
+  /// The bias, or the reason why there is none.
   struct Result {
-    bool accepted = false;
+    bool accepted = false;                             ///< the module rested
     Eigen::Vector3d bias = Eigen::Vector3d::Zero();    ///< rad/s
     Eigen::Vector3d stddev = Eigen::Vector3d::Zero();  ///< rad/s, of a single sample
-    std::string message;
+    std::string message;  ///< what was found, or why it is refused and what to do
   };
+  /// Of all samples so far.
   Result result() const;
 
  private:
@@ -70,11 +80,11 @@ class GyroCalibrator {
 
 /// Offset and scale per axis that put points on a sphere: |(p - offset) * scale| = radius.
 struct SphereFit {
-  bool accepted = false;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  double residual_rms = 0.0;  ///< of the magnitude, in the points' unit
-  std::string message;
+  bool accepted = false;                             ///< the points are those of a sphere
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< in the points' unit
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();   ///< factor per axis
+  double residual_rms = 0.0;                         ///< of the magnitude, in the points' unit
+  std::string message;                               ///< what was found, or why it is refused and what to do
 };
 
 /// Fits an axis-aligned ellipsoid, first algebraically (linear least squares), then on the magnitudes

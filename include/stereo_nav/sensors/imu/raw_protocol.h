@@ -19,18 +19,18 @@ struct RawMeasurement {
 
 /// A frame whose check sum is good.
 struct RawFrame {
-  RawMeasurement measurement;
+  RawMeasurement measurement;   ///< what the frame says
   std::uint64_t last_byte = 0;  ///< position in the stream of the frame's last byte, from 0
 };
 
 /// Since the start of the stream.
 struct RawParserCounters {
-  std::uint64_t bytes = 0;
+  std::uint64_t bytes = 0;          ///< received
   std::uint64_t bytes_skipped = 0;  ///< outside of good frames
-  std::uint64_t delivered = 0;
-  std::uint64_t bad_crc = 0;     ///< a frame's beginning was found, but the check sum does not agree
-  std::uint64_t impossible = 0;  ///< check sum good, but values no such sensor measures
-  std::uint64_t lost = 0;        ///< gaps in the sequence numbers
+  std::uint64_t delivered = 0;      ///< good frames
+  std::uint64_t bad_crc = 0;        ///< a frame's beginning was found, but the check sum does not agree
+  std::uint64_t impossible = 0;     ///< check sum good, but values no such sensor measures
+  std::uint64_t lost = 0;           ///< gaps in the sequence numbers
 };
 
 /// The raw protocol, all numbers little-endian:
@@ -47,12 +47,13 @@ struct RawParserCounters {
 /// A check sum of 32 bits, because 16 would let about one in 65536 damaged frames through: four in a million
 /// frames on a line that corrupts one byte in a hundred.
 namespace raw_protocol {
-constexpr std::size_t kPrefixBytes = 4;
-constexpr std::size_t kCrcBytes = 4;
-constexpr std::size_t kPayloadBytes = 30;
-constexpr std::size_t kPayloadBytesWithMagnetometer = 42;
-constexpr std::size_t kFrameBytes = kPrefixBytes + kPayloadBytes + kCrcBytes;
-constexpr std::size_t kMaxFrameBytes = kPrefixBytes + kPayloadBytesWithMagnetometer + kCrcBytes;
+constexpr std::size_t kPrefixBytes = 4;                                        ///< before the payload
+constexpr std::size_t kCrcBytes = 4;                                           ///< behind the payload
+constexpr std::size_t kPayloadBytes = 30;                                      ///< of type 1
+constexpr std::size_t kPayloadBytesWithMagnetometer = 42;                      ///< of type 2
+constexpr std::size_t kFrameBytes = kPrefixBytes + kPayloadBytes + kCrcBytes;  ///< a whole frame of type 1
+constexpr std::size_t kMaxFrameBytes =
+    kPrefixBytes + kPayloadBytesWithMagnetometer + kCrcBytes;  ///< a whole frame of type 2
 
 /// Writes a frame (at most kMaxFrameBytes) and returns its length.
 std::size_t encode(const RawMeasurement& measurement, std::uint8_t* frame);
@@ -66,6 +67,7 @@ class RawParser {
   std::optional<RawFrame> push(std::uint8_t byte);
   /// Forgets a partly received frame and the sequence, e.g. when the port was opened again.
   void reset();
+  /// What was received so far.
   const RawParserCounters& counters() const { return counters_; }
 
  private:

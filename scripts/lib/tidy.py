@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""tidy.py BUILD_DIR [FILE...]: clang-tidy over the sources of src/ (or these of them) as BUILD_DIR compiles them.
+
+Runs one process a core. Prints what clang-tidy finds, each finding once, and exits with status 1 where there is one, with
+77 where clang-tidy 14 is not installed.
+"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def sources(build_dir):
+    """The files below src/ that the build compiles, those that take longest first."""
+    database = build_dir / 'compile_commands.json'
+    if not database.exists():
+        sys.exit(f'{database} is missing: build first (scripts/build.sh {build_dir})')
+    files = {Path(entry['file']).resolve() for entry in json.loads(database.read_text())}
+    files = [path for path in files if ROOT / 'src' in path.parents and path.exists()]
+    return sorted(files, key=lambda path: ('<ros/' not in path.read_text(), path))
+
+
+def findings(tool, build_dir, path):
+    """(text of a finding with its notes) of one file; an empty list where it is clean."""
+    run = subprocess.run([tool, '--quiet', '-p', str(build_dir), str(path)], stdout=subprocess.PIPE,
+                         stderr=subprocess.PIPE, universal_newlines=True, check=False)
+    blocks = re.split(r'^(?=\S[^\n]*: (?:warning|error): )', run.stdout, flags=re.MULTILINE)
+    found = [block.strip().replace(f'{ROOT}/', '') for block in blocks if re.match(r'\S[^\n]*: (?:warning|error): ', block)]
+    if run.returncode and not found:
+        found = [f'{path.relative_to(ROOT)}: clang-tidy failed: {run.stderr.strip()}']
+    return found
+
+
+def main(arguments):
+    if not arguments:
+        sys.exit(__doc__)
+    build_dir = Path(arguments[0]).resolve()
+    tool = shutil.which('clang-tidy-14')
+    if not tool:
+        print('clang-tidy-14 is not installed')
+        return 77
+    wanted = {Path(argument).resolve() for argument in arguments[1:]}
+    paths = [path for path in sources(build_dir) if not wanted or path in wanted]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = pool.map(lambda path: findings(tool, build_dir, path), paths)
+        found = sorted({finding for result in results for finding in result})
+    print('\n'.join(found))
+    return 1 if found else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1:]))
