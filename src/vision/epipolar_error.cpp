@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/stereo_view.h"
+
 namespace stereo_nav::vision {
 namespace {
 
-constexpr double kMatchSigma_px = 0.3;
+constexpr double kMatchSigma_px = kPixelSigma_px;
 
 }  // namespace
 

@@ -1,15 +1,12 @@
 #include "vision/reprojection.h"
 
 namespace stereo_nav::vision {
-namespace {
 
-Eigen::Matrix<double, 3, 6> pointJacobian(const Eigen::Vector3d& p) {
+Eigen::Matrix<double, 3, 6> perturbationJacobian(const Eigen::Vector3d& p) {
   Eigen::Matrix<double, 3, 6> jacobian;
   jacobian << Eigen::Matrix3d::Identity(), -skew(p);
   return jacobian;
 }
-
-}  // namespace
 
 double robustWeight(const Eigen::Vector4d& error_px, double noise, double loss_px) {
   const double scale_px = loss_px * noise;
@@ -30,7 +27,7 @@ bool viewResidual(const StereoCalibration& calibration, const StereoView& view,
     if (p_late.z() < kNearestDepth_m) return false;
     residual.error_px.tail<2>() = seen.right_px - projectRight(calibration, p_late);
     const Eigen::Matrix<double, 2, 3> by_late_point = -rightProjectionJacobian(calibration, p_late);
-    residual.by_late = by_late_point * pointJacobian(p_late);
+    residual.by_late = by_late_point * perturbationJacobian(p_late);
     residual.by_camera_point.bottomRows<2>() = by_late_point * view.T_late_camera.linear();
   }
   residual.by_pose.leftCols<3>() = residual.by_camera_point;

@@ -9,6 +9,10 @@ namespace stereo_nav::vision {
 /// Weight of an observation with the Cauchy loss of scale `loss_px`, both scaled to its own noise.
 double robustWeight(const Eigen::Vector4d& error_px, double noise, double loss_px);
 
+/// The derivative of a point by a left perturbation T <- expMotion(delta) T of the motion that brought it to
+/// `p`.
+Eigen::Matrix<double, 3, 6> perturbationJacobian(const Eigen::Vector3d& p);
+
 /// Residuals (observed - projected) of both images and their derivatives by left perturbations of
 /// T_camera_world and T_late_camera. Returns false for a point behind a camera.
 struct ViewResidual {

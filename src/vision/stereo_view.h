@@ -24,7 +24,12 @@ struct StereoObservation {
   double noise = 1.0;  ///< of the pixels, relative to what a sharp image gives
 };
 
-constexpr double kNearestDepth_m = 1e-2;  ///< points nearer to the image plane than this are not projected
+/// Points nearer to the image plane than this are not projected. No two cameras see a point at one centimetre
+/// together, and the derivatives of the projection, which grow with 1/depth^2, stay within sound numbers.
+constexpr double kNearestDepth_m = 1e-2;
+
+/// Noise of a tracked or matched position in a sharp image, per coordinate.
+constexpr double kPixelSigma_px = 0.3;
 
 /// Pixel of a point; z must be at least kNearestDepth_m. `p_late` is in the left camera's frame at the right
 /// stamp.

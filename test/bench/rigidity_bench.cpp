@@ -136,7 +136,7 @@ double motionError_mm(const vision::StereoCalibration& calibration, const Scene&
   if (pairs.size() < 3) return 1e3;
   const odometry::RefinedMotion motion =
       odometry::refineMotion({}, calibration, pairs, odometry::alignPoints(pairs));
-  return 1e3 * (motion.T_cur_prev.translation() - scene.T_now_before.translation()).norm();
+  return 1e3 * (motion.T_current_previous.translation() - scene.T_now_before.translation()).norm();
 }
 
 void rigidity(benchmark::State& state, odometry::Method method, Outliers kind) {

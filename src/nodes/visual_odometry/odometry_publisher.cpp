@@ -126,7 +126,7 @@ void OdometryPublisher::publishStatus(const ros_io::FrameMessages& frame, const 
   status->keyframe_id = result.keyframe_id;
   status->reprojection_error_px = static_cast<float>(result.reprojection_error_px);
   status->skew_s = (frame.right_stamp - frame.left_stamp).toSec();
-  status->skew_compensated = static_cast<std::uint8_t>(result.skew_compensated);
+  status->skew_compensated = static_cast<std::uint8_t>(result.time_offset_compensated);
   status->right_offset_s = nan;
   status->right_offset_sigma_s = nan;
   status->imu_offset_s = nan;

@@ -4,13 +4,13 @@
 
 #include "odometry/common/consistency_graph.h"
 #include "stereo_nav/core/parameter_visitor.h"
-#include "stereo_nav/vision/stereo_calibration.h"
+#include "vision/stereo_view.h"
 
 namespace stereo_nav::odometry {
 
 struct NoisyRigidityParams {
-  double disparity_sigma_px = 0.3;
-  double pixel_sigma_px = 0.3;
+  double disparity_sigma_px = vision::kPixelSigma_px;
+  double pixel_sigma_px = vision::kPixelSigma_px;
   double gate_sigmas = 3.0;
 
   void describe(ParameterVisitor& visitor);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "odometry/common/gauss_newton.h"
+
 namespace stereo_nav::odometry {
 namespace {
 
@@ -26,38 +28,65 @@ void addRotationPrior(const Eigen::Matrix3d& R, const Eigen::Matrix3d& R_measure
   equations.gradient.segment<3>(first) += weight * residual;
 }
 
-/// T_late_camera ought to be the twist extrapolated from this very motion, for the time of the skew.
-void addSkewPrior(const MotionPrior& prior, const vision::StereoView& view, NormalEquations& equations) {
-  const Eigen::Isometry3d T_camera_previous = view.T_camera_world * prior.T_previous_world.inverse();
-  const Vector6d twist = extrapolatedTwist(T_camera_previous, prior.interval_s, prior.previous_twist);
+/// T_late_camera is expected to be the twist extrapolated from this very motion, over the time offset.
+void addTimeOffsetPrior(const MotionPrior& prior, const vision::StereoView& view,
+                        NormalEquations& equations) {
+  const Eigen::Isometry3d T_current_previous = view.T_camera_world * prior.T_previous_world.inverse();
+  const Vector6d twist = extrapolatedTwist(T_current_previous, prior.interval_s, prior.previous_twist);
   const Vector6d late = logMotion(view.T_late_camera);
-  const Vector6d residual = late - prior.skew_s * twist;
+  const Vector6d residual = late - prior.right_time_offset_s * twist;
   const double gain = prior.previous_twist ? 1.5 : 1.0;
   Eigen::Matrix<double, 6, 12> jacobian;
-  jacobian.leftCols<6>() =
-      -gain * prior.skew_s / prior.interval_s * inverseLeftJacobian(logMotion(T_camera_previous));
+  jacobian.leftCols<6>() = -gain * prior.right_time_offset_s / prior.interval_s *
+                           inverseLeftJacobian(logMotion(T_current_previous));
   jacobian.rightCols<6>() = inverseLeftJacobian(late);
-  const Vector6d weight = (prior.twist_sigma * prior.skew_s).array().square().inverse();
+  const Vector6d weight = (prior.twist_sigma * prior.right_time_offset_s).array().square().inverse();
   equations.information += jacobian.transpose() * weight.asDiagonal() * jacobian;
   equations.gradient += jacobian.transpose() * (weight.asDiagonal() * residual);
 }
 
-void addPriors(const MotionPrior& prior, const vision::StereoView& view, double sigma_px,
-               NormalEquations& equations) {
-  // Image residuals are weighted as if their noise were 1 px; priors have to follow.
+void addPriors(const MotionPrior& prior, const vision::StereoView& view, NormalEquations& equations) {
+  // Image residuals are weighted as if their noise were 1 px, and so are the priors.
+  constexpr double kVariance_px2 = vision::kPixelSigma_px * vision::kPixelSigma_px;
   NormalEquations added;
-  if (prior.R_camera_previous) {
+  if (prior.R_current_previous) {
     const Eigen::Matrix3d R = view.T_camera_world.linear() * prior.T_previous_world.linear().transpose();
-    addRotationPrior(R, *prior.R_camera_previous, prior.rotation_sigma_rad, 3, added);
+    addRotationPrior(R, *prior.R_current_previous, prior.rotation_sigma_rad, 3, added);
   }
-  if (prior.skew_s != 0.0) {
-    addSkewPrior(prior, view, added);
+  if (prior.right_time_offset_s != 0.0) {
+    addTimeOffsetPrior(prior, view, added);
     if (prior.R_late_camera) {
       addRotationPrior(view.T_late_camera.linear(), *prior.R_late_camera, prior.rotation_sigma_rad, 9, added);
     }
   }
-  equations.information += sigma_px * sigma_px * added.information;
-  equations.gradient += sigma_px * sigma_px * added.gradient;
+  equations.information += kVariance_px2 * added.information;
+  equations.gradient += kVariance_px2 * added.gradient;
+}
+
+/// Sums over the reliable observations, with the Cauchy loss of scale `loss_px`.
+NormalEquations linearise(const vision::StereoCalibration& calibration,
+                          const std::vector<MapObservation>& observations, bool has_time_offset,
+                          double loss_px, const vision::StereoView& view) {
+  NormalEquations equations;
+  vision::ViewResidual residual;
+  for (const MapObservation& observation : observations) {
+    if (!observation.reliable ||
+        !vision::viewResidual(calibration, view, observation.p_world, observation.seen, residual))
+      continue;
+    const double weight = vision::robustWeight(residual.error_px, observation.seen.noise, loss_px);
+    const Eigen::Matrix<double, 4, 6> weighted = weight * residual.by_pose;
+    equations.information.topLeftCorner<6, 6>().noalias() += weighted.transpose() * residual.by_pose;
+    equations.gradient.head<6>().noalias() += weighted.transpose() * residual.error_px;
+    if (!has_time_offset || !observation.seen.has_right) continue;
+    const Eigen::Matrix<double, 2, 6> weighted_late = weight * residual.by_late;
+    equations.information.bottomLeftCorner<6, 6>().noalias() +=
+        weighted_late.transpose() * residual.by_pose.bottomRows<2>();
+    equations.information.bottomRightCorner<6, 6>().noalias() += weighted_late.transpose() * residual.by_late;
+    equations.gradient.tail<6>().noalias() += weighted_late.transpose() * residual.error_px.tail<2>();
+  }
+  equations.information.topRightCorner<6, 6>() =
+      equations.information.bottomLeftCorner<6, 6>().transpose().eval();
+  return equations;
 }
 
 /// What the inverse of the weighted information has to be multiplied by to be the covariance of the robust
@@ -99,60 +128,33 @@ void PoseEstimatorParams::describe(ParameterVisitor& visitor) {
   visitor.real("max_error_px", max_error_px, {0.01, 100.0}, "px", "reprojection error of an inlier at most");
 }
 
-Vector6d extrapolatedTwist(const Eigen::Isometry3d& T_camera_previous, double interval_s,
-                           const std::optional<Vector6d>& previous_twist) {
-  const Vector6d mean = logMotion(T_camera_previous) / interval_s;
-  if (!previous_twist) return mean;
-  return 1.5 * mean - 0.5 * *previous_twist;
-}
-
-PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observations,
-                                     const MotionPrior& prior, const vision::StereoView& guess) const {
-  PoseEstimate estimate;
-  estimate.view = guess;
-  estimate.error_px.assign(observations.size(), std::numeric_limits<double>::infinity());
-  estimate.inlier.assign(observations.size(), false);
-  const bool skewed = prior.skew_s != 0.0;
-  const int size = skewed ? 12 : 6;
-  double sigma_px = 0.3;
-  vision::ViewResidual residual;
+std::optional<PoseEstimator::Matrix12d> PoseEstimator::minimise(
+    const std::vector<MapObservation>& observations, const MotionPrior& prior, int unknowns,
+    vision::StereoView& view) const {
   NormalEquations equations;
   for (int iteration = 0; iteration < params_.iterations; ++iteration) {
-    equations = NormalEquations();
     // Graduated: a wide loss first, so that a poor guess does not make outliers of good points.
     const double loss_px = params_.loss_px * std::max(1.0, 8.0 / (1 << iteration));
-    for (const MapObservation& observation : observations) {
-      if (!observation.votes ||
-          !vision::viewResidual(calibration_, estimate.view, observation.p_world, observation.seen, residual))
-        continue;
-      const double weight = vision::robustWeight(residual.error_px, observation.seen.noise, loss_px);
-      const Eigen::Matrix<double, 4, 6> weighted = weight * residual.by_pose;
-      equations.information.topLeftCorner<6, 6>().noalias() += weighted.transpose() * residual.by_pose;
-      equations.gradient.head<6>().noalias() += weighted.transpose() * residual.error_px;
-      if (!skewed || !observation.seen.has_right) continue;
-      const Eigen::Matrix<double, 2, 6> weighted_late = weight * residual.by_late;
-      equations.information.bottomLeftCorner<6, 6>().noalias() +=
-          weighted_late.transpose() * residual.by_pose.bottomRows<2>();
-      equations.information.bottomRightCorner<6, 6>().noalias() +=
-          weighted_late.transpose() * residual.by_late;
-      equations.gradient.tail<6>().noalias() += weighted_late.transpose() * residual.error_px.tail<2>();
-    }
-    equations.information.topRightCorner<6, 6>() =
-        equations.information.bottomLeftCorner<6, 6>().transpose().eval();
-    addPriors(prior, estimate.view, sigma_px, equations);
-    const Eigen::LDLT<Eigen::MatrixXd> solver(equations.information.topLeftCorner(size, size));
-    if (solver.info() != Eigen::Success || !solver.isPositive()) return estimate;
+    equations = linearise(calibration_, observations, unknowns > 6, loss_px, view);
+    addPriors(prior, view, equations);
+    const auto reduced = gaussNewtonStep<Eigen::MatrixXd, Eigen::VectorXd>(
+        equations.information.topLeftCorner(unknowns, unknowns), equations.gradient.head(unknowns));
+    if (!reduced) return std::nullopt;
     Vector12d step = Vector12d::Zero();
-    step.head(size) = solver.solve(-equations.gradient.head(size));
-    if (!step.allFinite()) return estimate;
-    estimate.view.T_camera_world = expMotion(step.head<6>()) * estimate.view.T_camera_world;
-    estimate.view.T_late_camera = expMotion(step.tail<6>()) * estimate.view.T_late_camera;
+    step.head(unknowns) = *reduced;
+    view.T_camera_world = expMotion(step.head<6>()) * view.T_camera_world;
+    view.T_late_camera = expMotion(step.tail<6>()) * view.T_late_camera;
     if (step.norm() < 1e-6 && iteration >= 4) break;
   }
+  return equations.information;
+}
 
+double PoseEstimator::judge(const std::vector<MapObservation>& observations, int unknowns,
+                            PoseEstimate& estimate) const {
   double squares = 0.0;
   double coordinates = 0.0;
   RobustNoise noise(params_.loss_px);
+  vision::ViewResidual residual;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const MapObservation& observation = observations[i];
     if (!vision::viewResidual(calibration_, estimate.view, observation.p_world, observation.seen, residual))
@@ -164,13 +166,26 @@ PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observat
     const double seen = observation.seen.has_right ? 4.0 : 2.0;
     squares += residual.error_px.squaredNorm();
     coordinates += seen;
-    if (observation.votes) noise.add(residual.error_px / observation.seen.noise, seen);
+    if (observation.reliable) noise.add(residual.error_px / observation.seen.noise, seen);
   }
+  if (estimate.inliers > 0) estimate.rms_px = std::sqrt(squares / coordinates);
+  return noise.variance(unknowns);
+}
+
+PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observations,
+                                     const MotionPrior& prior, const vision::StereoView& guess) const {
+  PoseEstimate estimate;
+  estimate.view = guess;
+  estimate.error_px.assign(observations.size(), std::numeric_limits<double>::infinity());
+  estimate.inlier.assign(observations.size(), false);
+  const int unknowns = prior.right_time_offset_s != 0.0 ? 12 : 6;
+  const auto information = minimise(observations, prior, unknowns, estimate.view);
+  if (!information) return estimate;
+  const double variance_px2 = judge(observations, unknowns, estimate);
   if (estimate.inliers < kFewestPoints) return estimate;
-  estimate.rms_px = std::sqrt(squares / coordinates);
-  const Eigen::LDLT<Eigen::MatrixXd> solver(equations.information.topLeftCorner(size, size));
-  const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(size, size));
-  estimate.covariance = noise.variance(size) * inverse.topLeftCorner<6, 6>();
+  const Eigen::LDLT<Eigen::MatrixXd> solver(information->topLeftCorner(unknowns, unknowns));
+  const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
+  estimate.covariance = variance_px2 * inverse.topLeftCorner<6, 6>();
   estimate.view.T_camera_world = renormalised(estimate.view.T_camera_world);
   estimate.view.T_late_camera = renormalised(estimate.view.T_late_camera);
   estimate.converged = estimate.covariance.allFinite();

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <vector>
 
+#include "odometry/stereo/motion_prior.h"
 #include "stereo_nav/core/parameter_visitor.h"
 #include "vision/reprojection.h"
 
@@ -21,29 +21,7 @@ struct PoseEstimatorParams {
 struct MapObservation {
   Eigen::Vector3d p_world;
   vision::StereoObservation seen;
-  bool votes = true;  ///< otherwise only judged by the motion that the others have
-};
-
-/// What is known of a frame's motion before its features are looked at.
-struct MotionPrior {
-  Eigen::Isometry3d T_previous_world = Eigen::Isometry3d::Identity();
-  /// Rotation since the previous frame from the IMU, previous camera -> camera, and its sigma per axis.
-  std::optional<Eigen::Matrix3d> R_camera_previous;
-  double rotation_sigma_rad = 1.0;
-
-  double skew_s = 0.0;      ///< right stamp minus left stamp; 0 leaves T_late_camera at identity
-  double interval_s = 0.0;  ///< since the previous frame
-  /// Twist of the world in the camera frame (m/s, rad/s) at the previous frame, if it is known.
-  std::optional<Vector6d> previous_twist;
-  Vector6d twist_sigma = Vector6d::Ones();  ///< of the twist predicted from previous_twist and this motion
-  std::optional<Eigen::Matrix3d> R_late_camera;  ///< rotation between the stamps from the IMU
-
-  /// How well the motion between the stamps is known before the right image is looked at: m, rad.
-  Vector6d lateSigma() const {
-    Vector6d sigma = twist_sigma * std::abs(skew_s);
-    if (R_late_camera) sigma.tail<3>().setConstant(rotation_sigma_rad);
-    return sigma;
-  }
+  bool reliable = true;  ///< otherwise it is only judged by the motion that the reliable ones have
 };
 
 /// What PoseEstimator found; not to be used unless `converged`.
@@ -58,8 +36,8 @@ struct PoseEstimate {
 };
 
 /// Motion-only estimation against known points: Gauss-Newton with a Cauchy loss on the pixels of the left and
-/// the right image, each at its own time. With skewed stamps the motion between them is estimated along with
-/// the pose; a prior of constant acceleration ties the two together.
+/// the right image, each at its own time. Where the stamps differ, the motion between them is estimated along
+/// with the pose; a prior of constant acceleration ties the two together.
 class PoseEstimator {
  public:
   PoseEstimator(const PoseEstimatorParams& params, const vision::StereoCalibration& calibration)
@@ -69,14 +47,17 @@ class PoseEstimator {
                         const vision::StereoView& guess) const;
 
  private:
+  using Matrix12d = Eigen::Matrix<double, 12, 12>;
+
+  /// Moves `view` to the minimum over `unknowns` (6, or 12 with the motion between the stamps). Returns the
+  /// information there, nothing if the observations do not determine it.
+  std::optional<Matrix12d> minimise(const std::vector<MapObservation>& observations, const MotionPrior& prior,
+                                    int unknowns, vision::StereoView& view) const;
+  /// Errors and inliers at the estimated view. Returns the variance of the pixels, px^2.
+  double judge(const std::vector<MapObservation>& observations, int unknowns, PoseEstimate& estimate) const;
+
   PoseEstimatorParams params_;
   vision::StereoCalibration calibration_;
 };
-
-/// Twist at the right stamp's side of a motion, constant acceleration assumed: the mean twist since the
-/// previous frame, extrapolated from the twist there (conditional mean of a Gauss-Markov velocity; Barfoot,
-/// Tong and Sarkka 2014). Without a previous twist: the mean.
-Vector6d extrapolatedTwist(const Eigen::Isometry3d& T_camera_previous, double interval_s,
-                           const std::optional<Vector6d>& previous_twist);
 
 }  // namespace stereo_nav::odometry

@@ -1,237 +1,305 @@
 #include "odometry/stereo/stereo_odometry.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "odometry/common/stage_clock.h"
+#include "odometry/stereo/frame_check.h"
+#include "odometry/stereo/frame_report.h"
 #include "stereo_nav/core/parameters.h"
-#include "vision/pixel.h"
 
 namespace stereo_nav::odometry {
-namespace {
-
-constexpr double kNegligibleSkew_s = 1e-5;
-/// m/s and rad/s: how fast the rig may move before anything is known of it.
-constexpr double kFirstTwistSigma = 1.0;
-
-}  // namespace
 
 StereoOdometry::StereoOdometry(const StereoParams& params, const vision::StereoCalibration& calibration,
                                const Eigen::Matrix3d& R_camera_imu)
     : params_(params),
       calibration_(calibration),
-      detector_(params.corners, cv::Size(calibration.width, calibration.height)),
-      tracker_(params.tracking),
-      stereo_(params.stereo, calibration),
+      R_camera_imu_(R_camera_imu),
       estimator_(params.motion, calibration),
-      optimizer_(params.window, calibration),
-      imu_(params.imu, R_camera_imu),
-      shutter_(calibration) {
+      shutter_(calibration),
+      motion_(params.motion_model, params.imu, R_camera_imu),
+      follower_(params.tracking, params.pyramid_levels),
+      matcher_(params.stereo, calibration),
+      detector_(params.corners, calibration),
+      map_(params.keyframes.window, params.window, calibration) {
   validateParameters(params, "stereo");
   calibration.validate();
 }
 
 void StereoOdometry::reset() {
-  detector_.reset();
-  imu_.reset();
-  window_.clear();
-  landmarks_.clear();
-  tracks_.clear();
-  keyframe_image_ = vision::ImagePyramid();
-  keyframe_inliers_ = 0;
-  keyframe_id_ = 0;
-  last_view_ = vision::StereoView();
-  twist_.reset();
-  failures_ = 0;
-  movers_fill_view_ = false;
-  stereo_.epipolarError().reset();
+  // An odometry made anew has nothing that could survive.
+  *this = StereoOdometry(params_, calibration_, R_camera_imu_);
 }
 
 FrameResult StereoOdometry::process(const StereoFrame& frame) {
-  checkFrame(frame);
+  checkFrame(frame, calibration_);
+  if (!map_.empty()) checkOrder(frame, motion_.previousTimes().left_s);
   FrameResult result;
   StageClock clock(result.stage_times);
-  Images images;
-  images.left = vision::ImagePyramid(frame.left, params_.pyramid_levels);
-  images.right = vision::ImagePyramid(frame.right, params_.pyramid_levels);
-  images.left_time_s = frame.left_time_s;
-  images.right_time_s = frame.right_time_s;
-  if (std::abs(images.skew_s()) < kNegligibleSkew_s) images.right_time_s = images.left_time_s;
+  const StereoImages images(frame, params_.pyramid_levels);
   shutter_.setReadout(frame.readout_s);
   clock.lap("pyramid");
 
-  if (window_.empty()) {
+  if (map_.empty()) {
     result.state = keyframe_id_ == 0 ? State::kInitialising : State::kLost;
     result.reason = "first frame: nothing to measure motion against yet";
-    startAt(images, last_view_.T_camera_world, result);
-  } else if (!followOrSearch(images, result)) {
-    result.state = State::kLost;
-    if (!isBlank(images, result) && !waitsForMovers(images)) ++failures_;
-    if (failures_ > params_.max_coasting_frames) startAt(images, turnedSinceLast(images), result);
+    startMap(images, motion_.previousView().T_camera_world, result);
+  } else {
+    MotionPrior prior = motion_.prior(images.times);
+    std::optional<PoseEstimate> estimate = estimatePose(images, prior, result);
+    if (!estimate && motion_.forgetVelocity()) {
+      // After a sudden stop, or a gap in the images, the velocity leads the search astray.
+      prior = motion_.prior(images.times);
+      estimate = estimatePose(images, prior, result);
+    }
+    if (estimate) {
+      updateMap(images, prior, *estimate, result);
+    } else {
+      handleLoss(images, result);
+    }
   }
-  result.T_start_camera = last_view_.T_camera_world.inverse();
+  result.T_start_camera = motion_.previousView().T_camera_world.inverse();
   result.keyframe_id = keyframe_id_;
-  result.skew_compensated = images.skew_s() != 0.0;
-  report(result);
+  result.time_offset_compensated = images.times.rightOffset_s() != 0.0;
+  reportTracks(follower_.tracks(), motion_.previousView().T_camera_world, result);
   return result;
 }
 
-void StereoOdometry::startAt(const Images& images, const Eigen::Isometry3d& T_camera_world,
-                             FrameResult& result) {
+std::optional<PoseEstimate> StereoOdometry::estimatePose(const StereoImages& images, const MotionPrior& prior,
+                                                         FrameResult& result) {
   StageClock clock(result.stage_times);
-  landmarks_.clear();
-  tracks_.clear();
-  window_.assign(1, WindowFrame());
-  WindowFrame& first = window_.back();
-  first.view.T_camera_world = T_camera_world;
-  first.skewed = images.skew_s() != 0.0;
-  first.late_sigma.setConstant(kFirstTwistSigma * std::abs(images.skew_s()));
-  twist_.reset();
-  row_twist_.setZero();
-  movers_fill_view_ = false;
-  last_left_time_s_ = images.left_time_s;
-  last_skew_s_ = images.skew_s();
-  last_interval_s_ = 0.0;
-  if (const auto late = imu_.increment(images.left_time_s, images.right_time_s)) {
-    first.view.T_late_camera.linear() = first.T_late_expected.linear() = late->R_to_from;
-    first.late_sigma.tail<3>().setConstant(late->sigma_rad);
+  const vision::StereoView predicted = prior.predictedView();
+  row_twist_ = prior.twistAt(predicted);
+  follower_.updatePoints(map_);
+  follower_.follow(images.left, prediction(predicted), prior.predictsMotion());
+  selectReliableTracks(params_.min_inliers, follower_.tracks());
+  clock.lap("track");
+  const vision::StereoView guess = matchRightImage(images, prior, predicted);
+  clock.lap("stereo");
+  const TrackIndices rigid = selectRigid(prior, guess, result);
+  clock.lap("select");
+  PoseEstimate estimate = estimateRobustly(rigid, prior, guess);
+  if (estimate.converged && hasFewInliers(estimate) && recoverTracks(images, estimate.view))
+    estimate = estimateRobustly(foundTracks(follower_.tracks()), prior, estimate.view);
+  if (exceedsAcceleration(estimate, prior)) {
+    mover_fills_view_ = true;
+    compensateRows(prior, predicted);  // the rows did not move along with the mover
+    estimate =
+        estimateRobustly(tracksNear(calibration_, predicted, params_.motion.max_error_px, follower_.tracks()),
+                         prior, predicted);
   }
-  last_view_ = first.view;
+  if (start_needs_compensation_ && hasEnoughInliers(estimate)) {
+    compensateStart(prior.twistAt(estimate.view));
+    estimate = estimateRobustly(foundTracks(follower_.tracks()), prior, estimate.view);
+  }
+  clock.lap("estimate");
+  if (isAcceptable(estimate, prior, result)) return estimate;
+  for (Track& track : follower_.tracks()) track.inlier = false;
+  return std::nullopt;
+}
+
+vision::StereoView StereoOdometry::matchRightImage(const StereoImages& images, const MotionPrior& prior,
+                                                   const vision::StereoView& predicted) {
+  std::vector<Track>& tracks = follower_.tracks();
+  if (prior.right_time_offset_s == 0.0) {
+    matcher_.match(images, predicted, 0.0, tracks);
+    compensateRows(prior, predicted);
+    return predicted;
+  }
+  // Epipolar lines bend with the motion between the stamps, as far as the left image alone tells it.
+  for (Track& track : tracks) track.in_image.has_right = false;
+  compensateRows(prior, predicted);
+  const PoseEstimate by_left = estimateFrom(foundTracks(tracks), prior, predicted);
+  const vision::StereoView& view = by_left.converged ? by_left.view : predicted;
+  matcher_.match(images, view, matcher_.slack_px(prior.lateSigma()), tracks);
+  compensateRows(prior, view);
+  // Depths have to be freed from that motion before they can be judged.
+  const PoseEstimate by_both = estimateFrom(foundTracks(tracks), prior, view);
+  return by_both.converged ? by_both.view : view;
+}
+
+TrackIndices StereoOdometry::selectRigid(const MotionPrior& prior, const vision::StereoView& view,
+                                         FrameResult& result) const {
+  const RigidSelection rigid = selectRigidTracks(params_.clique, params_.rigidity, calibration_,
+                                                 prior.T_previous_world, view, follower_.tracks());
+  TrackIndices found = foundTracks(follower_.tracks());
+  result.features_tracked = static_cast<std::uint32_t>(found.size());
+  result.features_with_depth = static_cast<std::uint32_t>(rigid.with_depth);
+  result.clique_size = static_cast<std::uint32_t>(rigid.tracks.size());
+  return rigid.tracks.size() < static_cast<std::size_t>(params_.min_inliers) ? found : rigid.tracks;
+}
+
+PoseEstimate StereoOdometry::estimateFrom(const TrackIndices& selected, const MotionPrior& prior,
+                                          const vision::StereoView& guess) const {
+  return estimator_.estimate(observations(follower_.tracks(), selected), prior, guess);
+}
+
+PoseEstimate StereoOdometry::estimateRobustly(const TrackIndices& selected, const MotionPrior& prior,
+                                              const vision::StereoView& guess) {
+  compensateRows(prior, guess);
+  const PoseEstimate by_selected = estimateFrom(selected, prior, guess);
+  if (!by_selected.converged) return by_selected;
+  compensateRows(prior, by_selected.view);
+  // Tracks without a depth of their own in this frame take part, too.
+  const TrackIndices found = foundTracks(follower_.tracks());
+  const PoseEstimate estimate = estimateFrom(found, prior, by_selected.view);
+  for (std::size_t k = 0; k < found.size(); ++k) follower_.tracks()[found[k]].inlier = estimate.inlier[k];
+  return estimate;
+}
+
+bool StereoOdometry::hasEnoughInliers(const PoseEstimate& estimate) const {
+  return estimate.converged && estimate.inliers >= static_cast<std::size_t>(params_.min_inliers);
+}
+
+bool StereoOdometry::hasFewInliers(const PoseEstimate& estimate) const {
+  constexpr double kShare = 0.6;
+  return static_cast<double>(estimate.inliers) <
+         kShare * static_cast<double>(aliveTracks(follower_.tracks()));
+}
+
+bool StereoOdometry::exceedsAcceleration(const PoseEstimate& estimate, const MotionPrior& prior) const {
+  return hasEnoughInliers(estimate) &&
+         motion_.exceedsAcceleration(estimate.view.T_camera_world * prior.T_previous_world.inverse(),
+                                     prior.interval_s);
+}
+
+bool StereoOdometry::isAcceptable(const PoseEstimate& estimate, const MotionPrior& prior,
+                                  FrameResult& result) const {
+  if (!hasEnoughInliers(estimate)) {
+    result.reason = tooFewInliers(estimate.inliers, result.features_tracked, params_.min_inliers);
+    return false;
+  }
+  if (!exceedsAcceleration(estimate, prior)) return true;
+  result.reason = moverFillsView();
+  return false;
+}
+
+bool StereoOdometry::recoverTracks(const StereoImages& images, const vision::StereoView& view) {
+  const TrackIndices recovered = follower_.recover(images.left, prediction(view));
+  for (const std::size_t i : recovered) matcher_.match(images, view, 0.0, follower_.tracks()[i]);
+  selectReliableTracks(params_.min_inliers, follower_.tracks());
+  return !recovered.empty();
+}
+
+FramePrediction StereoOdometry::prediction(const vision::StereoView& view) const {
+  return {calibration_, shutter_, view, row_twist_, map_.newest().view.T_camera_world};
+}
+
+void StereoOdometry::compensateRows(const MotionPrior& prior, const vision::StereoView& view) {
+  row_twist_ = prior.twistAt(view);
+  compensateRollingShutter(shutter_, view, row_twist_, follower_.tracks());
+}
+
+void StereoOdometry::compensateStart(const Vector6d& twist) {
+  start_needs_compensation_ = false;
+  for (Landmark& landmark : map_.landmarks()) {
+    placeAtStamp(calibration_, shutter_, map_.oldest().view, twist, landmark, landmark.views.front().seen);
+  }
+  follower_.updatePoints(map_);
+}
+
+void StereoOdometry::updateMap(const StereoImages& images, const MotionPrior& prior,
+                               const PoseEstimate& estimate, FrameResult& result) {
+  StageClock clock(result.stage_times);
+  map_.addFrame(MotionModel::windowFrame(estimate.view, prior));
+  if (previous_is_keyframe_ && lost_frames_ == 0)
+    motion_.smoothTimeOffset(images.times, map_.newest().view, map_.beforeNewest());
+  for (const Track& track : follower_.tracks()) {
+    if (track.inlier) map_.addObservation(track.landmark_id, track.at_stamp);
+  }
+  map_.refine();
+  follower_.updatePoints(map_);
+  const vision::StereoView view = map_.newest().view;
+  matcher_.learnRows(view, follower_.tracks());
+  clock.lap("window");
+
+  const Eigen::Isometry3d T_current_previous = view.T_camera_world * prior.T_previous_world.inverse();
+  if (prior.R_current_previous) {
+    result.rotation_disagreement_rad =
+        logRotation(*prior.R_current_previous * T_current_previous.linear().transpose()).norm();
+  }
+  const double rotation_variance = estimate.covariance.bottomRightCorner<3, 3>().trace() / 3.0;
+  motion_.update(images.times, prior, view, std::sqrt(rotation_variance));
+  result.state = State::kTracking;
+  result.T_previous_camera = T_current_previous.inverse();
+  result.motion_covariance = estimate.covariance;
+  result.reprojection_error_px = estimate.rms_px;
+  lost_frames_ = 0;
+  previous_is_keyframe_ = needsKeyframe(params_.keyframes, follower_.tracks(), keyframe_features_);
+  if (previous_is_keyframe_) {
+    makeKeyframe(images, result);
+  } else {
+    map_.removeNewest();
+  }
+  clock.lap("keyframe");
+}
+
+void StereoOdometry::startMap(const StereoImages& images, const Eigen::Isometry3d& T_camera_world,
+                              FrameResult& result) {
+  StageClock clock(result.stage_times);
+  map_.start(motion_.start(images.times, T_camera_world));
+  follower_.reset();
+  row_twist_.setZero();
+  mover_fills_view_ = false;
+  start_needs_compensation_ = !shutter_.isGlobal();
   makeKeyframe(images, result);
-  start_is_bent_ = !shutter_.isGlobal();
-  learnEpipolarErrorAtStart();
-  last_is_keyframe_ = true;
-  if (landmarks_.size() < static_cast<std::size_t>(params_.min_inliers)) {
-    window_.clear();
+  previous_is_keyframe_ = true;
+  if (map_.landmarks().size() < static_cast<std::size_t>(params_.min_inliers)) {
     result.keyframe = false;
-    std::ostringstream message;
-    message << "only " << landmarks_.size() << " features with depth, " << params_.min_inliers
-            << " needed: dark, blocked or without texture; or the cameras are not those of the calibration";
-    result.reason = message.str();
+    result.reason = tooFewLandmarks(map_.landmarks().size(), params_.min_inliers);
+    map_.clear();
     return;
   }
   clock.lap("start");
 }
 
-bool StereoOdometry::followOrSearch(const Images& images, FrameResult& result) {
-  if (follow(images, result)) return true;
-  if (!twist_) return false;
-  // A sudden stop, or a gap in the images: the velocity may have been what led astray.
-  twist_.reset();
-  return follow(images, result);
+void StereoOdometry::makeKeyframe(const StereoImages& images, FrameResult& result) {
+  follower_.startKeyframe(images.left);
+  addLandmarks(images, result);
+  keyframe_features_ = aliveTracks(follower_.tracks());
+  ++keyframe_id_;
+  result.keyframe = true;
+  map_.keepNewest();
+  std::vector<std::uint64_t> followed;
+  for (const Track& track : follower_.tracks()) {
+    if (track.alive) followed.push_back(track.landmark_id);
+  }
+  map_.removeUnused(followed);
+  follower_.removeTracksWithout(map_);
 }
 
-Eigen::Isometry3d StereoOdometry::turnedSinceLast(const Images& images) const {
-  Eigen::Isometry3d T_camera_last = Eigen::Isometry3d::Identity();
-  if (const auto turn = imu_.increment(last_left_time_s_, images.left_time_s)) {
-    T_camera_last.linear() = turn->R_to_from;
+void StereoOdometry::addLandmarks(const StereoImages& images, FrameResult& result) {
+  const WindowFrame& frame = map_.newest();
+  // At the very start nothing is known of the motion between the stamps.
+  const bool is_vague = map_.isAtStart() && frame.has_time_offset;
+  const double slack_px = is_vague ? matcher_.slack_px(frame.late_sigma) : 0.0;
+  LandmarkDetector::Result found =
+      detector_.detect({images, shutter_, frame.view, row_twist_, slack_px}, follower_.tracks(), matcher_);
+  result.features_detected = static_cast<std::uint32_t>(found.corners);
+  if (map_.isAtStart() && !frame.has_time_offset) matcher_.learnRowsAtStart(found.landmarks);
+  for (const NewLandmark& detected : found.landmarks) {
+    Track track;
+    track.landmark_id = map_.addLandmark(detected.landmark, detected.at_stamp);
+    track.p_world = detected.landmark.p_world();
+    track.keyframe_px = track.previous_px = detected.in_image.left_px;
+    track.in_image = detected.in_image;
+    track.at_stamp = detected.at_stamp;
+    track.found = track.inlier = true;
+    follower_.add(track);
   }
-  return T_camera_last * last_view_.T_camera_world;
 }
 
-bool StereoOdometry::isBlank(const Images& images, FrameResult& result) {
-  const std::size_t corners = detector_.detect(images.left.level(0), {}).size();
-  if (corners >= static_cast<std::size_t>(params_.min_inliers)) return false;
-  std::ostringstream message;
-  message << "the left image is blank, " << corners
-          << " corners: dark, covered, or overexposed; the features seen before are waited for";
-  result.reason = message.str();
-  return true;
-}
-
-bool StereoOdometry::follow(const Images& images, FrameResult& result) {
-  StageClock clock(result.stage_times);
-  const MotionPrior prior = motionPrior(images);
-  const vision::StereoView predicted = predict(images, prior);
-  row_twist_ = twistAt(predicted, prior);
-  trackAll(images, predicted, twist_ || prior.R_camera_previous);
-  clock.lap("track");
-  vision::StereoView guess = predicted;
-  if (images.skew_s() == 0.0) {
-    matchStereo(images, guess, 0.0);
-    straighten(guess, prior);
-  } else {
-    guess = leftOnlyView(prior, predicted);
-    matchStereo(images, guess, epipolarSlack(prior.lateSigma()));
-    straighten(guess, prior);
-    // Depth has to be freed from the motion between the stamps before it can be judged.
-    const PoseEstimate rough = estimateFrom(foundTracks(), prior, guess);
-    if (rough.converged) guess = rough.view;
+void StereoOdometry::handleLoss(const StereoImages& images, FrameResult& result) {
+  constexpr double kPatience_s = 1.0;  // for what fills the view and may pass
+  result.state = State::kLost;
+  const double lost_for_s = images.times.left_s - motion_.previousTimes().left_s;
+  const std::size_t corners = detector_.countCorners(images.left);
+  if (corners < static_cast<std::size_t>(params_.min_inliers)) {
+    result.reason = blankImage(corners);
+  } else if (!(mover_fills_view_ && lost_for_s < kPatience_s)) {
+    ++lost_frames_;
   }
-  clock.lap("stereo");
-  const std::vector<std::size_t> selected = selectRigid(guess, result);
-  clock.lap("select");
-  PoseEstimate estimate = estimatePose(selected, prior, guess);
-  if (estimate.converged && isThin(estimate) && recover(images, estimate.view) > 0) {
-    estimate = estimatePose(foundTracks(), prior, estimate.view);
-  }
-  if (isCarriedAway(estimate, prior)) {
-    movers_fill_view_ = true;
-    straighten(predicted, prior);  // not along the motion of what carried it away
-    estimate = estimatePose(tracksNear(predicted), prior, predicted);
-  }
-  if (start_is_bent_ && hasEnoughInliers(estimate)) {
-    straightenStart(twistAt(estimate.view, prior));
-    estimate = estimatePose(foundTracks(), prior, estimate.view);
-  }
-  clock.lap("estimate");
-  if (!isAcceptable(estimate, prior, result)) return false;
-  if (failures_ > 0) last_is_keyframe_ = false;
-  failures_ = 0;
-  const Eigen::Isometry3d T_world_last = last_view_.T_camera_world.inverse();
-  window_.emplace_back();
-  window_.back().view = estimate.view;
-  expectSkew(images, prior);
-  smoothPreviousSkew(images);
-  refineWindow();
-  learnEpipolarError();
-  clock.lap("window");
-  const Eigen::Isometry3d T_camera_last = window_.back().view.T_camera_world * T_world_last;
-  if (prior.R_camera_previous) {
-    result.rotation_disagreement_rad =
-        logRotation(*prior.R_camera_previous * T_camera_last.linear().transpose()).norm();
-    imu_.learn(last_left_time_s_, images.left_time_s, T_camera_last.linear(),
-               std::sqrt(estimate.covariance.bottomRightCorner<3, 3>().trace() / 3.0));
-  }
-  updateTwist(images, prior);
-  result.state = State::kTracking;
-  result.T_previous_camera = T_camera_last.inverse();
-  result.motion_covariance = estimate.covariance;
-  result.reprojection_error_px = estimate.rms_px;
-  last_view_ = window_.back().view;
-  last_left_time_s_ = images.left_time_s;
-  last_skew_s_ = images.skew_s();
-  last_is_keyframe_ = needsKeyframe();
-  if (last_is_keyframe_) {
-    makeKeyframe(images, result);
-  } else {
-    for (Landmark& landmark : landmarks_) {
-      if (!landmark.views.empty() && landmark.views.back().frame + 1 == static_cast<int>(window_.size()))
-        landmark.views.pop_back();
-    }
-    window_.pop_back();
-  }
-  clock.lap("keyframe");
-  return true;
-}
-
-bool StereoOdometry::isAcceptable(const PoseEstimate& estimate, const MotionPrior& prior,
-                                  FrameResult& result) {
-  const bool carried_away = isCarriedAway(estimate, prior);
-  if (!carried_away && hasEnoughInliers(estimate)) return true;
-  for (Track& track : tracks_) track.inlier = false;
-  if (carried_away) {
-    result.reason =
-        "most of what is seen moves as no robot could have begun to within a frame: something that moves on "
-        "its own fills the view; the features seen before are waited for";
-    return false;
-  }
-  std::ostringstream message;
-  message << "only " << estimate.inliers << " of " << result.features_tracked
-          << " tracked features agree with one motion, " << params_.min_inliers
-          << " needed: dark, blocked, without texture, moved too far, or moving objects fill the view";
-  result.reason = message.str();
-  return false;
+  if (lost_frames_ > params_.max_lost_frames)
+    startMap(images, motion_.turnedSincePrevious(images.times), result);
 }
 
 }  // namespace stereo_nav::odometry

@@ -1,21 +1,19 @@
 #include "odometry/stereo/window_optimizer.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "odometry/stereo/pose_estimator.h"
+#include "odometry/common/gauss_newton.h"
+#include "vision/reprojection.h"
 
 namespace stereo_nav::odometry {
 namespace {
 
 constexpr double kLeastInverseDepth = 1e-4;  ///< 1/m
-/// Image residuals are weighted as if their noise were 1 px; priors are scaled by what it really is, about.
-constexpr double kPixelSigma_px = 0.3;
 constexpr Eigen::Index kNone = -1;
-/// Latest frames whose motion between skewed stamps is still a variable. In older ones the frames around have
-/// settled it: freeing it further costs a quarter of the time and brings nothing.
-constexpr std::size_t kFreeSkews = 6;
+/// Number of the latest frames in which the motion between the two stamps is still a variable. In older ones
+/// the frames around them have settled it: to keep it free costs a quarter of the time and brings nothing.
+constexpr std::size_t kFreeTimeOffsets = 6;
 
 /// First variable of a frame's pose; the first frame is held.
 Eigen::Index poseAt(int frame) {
@@ -71,20 +69,21 @@ void WindowOptimizer::addLandmark(const std::vector<WindowFrame>& window, const 
   }
   if (!seen) return;
   elimination.blocks = blocks_.size() - elimination.first_block;
-  // A whiff of damping: a landmark seen without parallax keeps its depth.
+  // Slight damping, so that a landmark seen without parallax keeps its depth.
   information.diagonal() *= 1.0 + 1e-4;
   information.diagonal().array() += 1e-6;
   elimination.inverse_information = information.inverse();
   eliminations_.push_back(elimination);
 }
 
-void WindowOptimizer::addSkewPriors(const std::vector<WindowFrame>& window) {
+void WindowOptimizer::addTimeOffsetPriors(const std::vector<WindowFrame>& window) {
   for (std::size_t f = 0; f < window.size(); ++f) {
     const Eigen::Index late = late_at_[f];
     if (late == kNone) continue;
     const WindowFrame& frame = window[f];
     const Vector6d residual = logMotion(frame.view.T_late_camera * frame.T_late_expected.inverse());
-    const Vector6d weight = (kPixelSigma_px * frame.late_sigma.cwiseInverse()).array().square();
+    // Image residuals are weighted as if their noise were 1 px, and so are the priors.
+    const Vector6d weight = (vision::kPixelSigma_px * frame.late_sigma.cwiseInverse()).array().square();
     information_.diagonal().segment<6>(late) += weight;
     gradient_.segment<6>(late) += weight.cwiseProduct(residual);
   }
@@ -113,7 +112,7 @@ bool WindowOptimizer::linearise(const std::vector<WindowFrame>& window,
   auto size = static_cast<Eigen::Index>(6 * (window.size() - 1));
   late_at_.assign(window.size(), kNone);
   for (std::size_t f = 0; f < window.size(); ++f) {
-    if (!window[f].skewed || f + kFreeSkews < window.size()) continue;
+    if (!window[f].has_time_offset || f + kFreeTimeOffsets < window.size()) continue;
     late_at_[f] = size;
     size += 6;
   }
@@ -125,7 +124,7 @@ bool WindowOptimizer::linearise(const std::vector<WindowFrame>& window,
     if (landmarks[i].views.size() >= 2) addLandmark(window, landmarks[i], i);
   }
   for (const Elimination& elimination : eliminations_) eliminate(elimination);
-  addSkewPriors(window);
+  addTimeOffsetPriors(window);
   information_.diagonal().array() += 1e-6;
   return !eliminations_.empty();
 }
@@ -151,7 +150,7 @@ void WindowOptimizer::apply(const Eigen::VectorXd& step, std::vector<WindowFrame
     Eigen::Vector3d& ray_depth = landmarks[elimination.landmark].ray_depth;
     const Eigen::Vector3d change = elimination.inverse_information * gradient;
     ray_depth.head<2>() -= change.head<2>();
-    // Never through infinity, and not nearer than twice as near in one step.
+    // A step never passes infinity, and at most doubles or halves the inverse depth.
     ray_depth.z() = std::clamp(ray_depth.z() - change.z(), std::max(kLeastInverseDepth, 0.5 * ray_depth.z()),
                                std::max(kLeastInverseDepth, 2.0 * ray_depth.z()));
   }
@@ -161,11 +160,9 @@ bool WindowOptimizer::optimise(std::vector<WindowFrame>& window, std::vector<Lan
   if (window.size() < 2) return false;
   for (int iteration = 0; iteration < params_.iterations; ++iteration) {
     if (!linearise(window, landmarks)) return false;
-    const Eigen::LDLT<Eigen::MatrixXd> solver(information_);
-    if (solver.info() != Eigen::Success || !solver.isPositive()) return false;
-    const Eigen::VectorXd step = solver.solve(-gradient_);
-    if (!step.allFinite()) return false;
-    apply(step, window, landmarks);
+    const auto step = gaussNewtonStep(information_, gradient_);
+    if (!step) return false;
+    apply(*step, window, landmarks);
   }
   return true;
 }

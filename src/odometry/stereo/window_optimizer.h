@@ -15,11 +15,11 @@ struct WindowOptimizerParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// A frame of the window. Of a skewed one the motion between the two stamps is a variable of its own, tied to
-/// what the frames around it make one expect.
+/// A frame of the window. If its two images have different stamps, the motion between them is a variable of
+/// its own, tied to what the frames around it predict.
 struct WindowFrame {
   vision::StereoView view;
-  bool skewed = false;
+  bool has_time_offset = false;  ///< between the left and the right image
   Eigen::Isometry3d T_late_expected = Eigen::Isometry3d::Identity();
   Vector6d late_sigma = Vector6d::Ones();  ///< of the left perturbation of T_late_camera: m, rad
 };
@@ -30,9 +30,9 @@ struct LandmarkView {
   vision::StereoObservation seen;
 };
 
-/// A point of the map: the pixel ray and inverse depth in the camera that saw it first, as that camera stood
-/// then. A plain reparametrisation of a point of the world that is as good at infinity as near by (Civera,
-/// Davison and Montiel 2008); the anchor is no variable.
+/// A point of the map: the pixel ray and inverse depth in the camera that saw it first, at the pose that this
+/// camera was given then. These parameters of a point in the world are as good at infinity as near by
+/// (Civera, Davison and Montiel 2008). The anchor is not refined.
 struct Landmark {
   std::uint64_t id = 0;
   Eigen::Isometry3d T_world_anchor = Eigen::Isometry3d::Identity();
@@ -46,13 +46,14 @@ struct Landmark {
 
 /// Bundle adjustment of a few frames and all landmarks seen from at least two of them: Gauss-Newton on the
 /// stereo reprojection error with a Cauchy loss, landmarks eliminated by the Schur complement (Triggs et al.
-/// 2000). The first frame is held: an odometry has no other origin.
+/// 2000). The first frame is held, since an odometry has no other origin.
 class WindowOptimizer {
  public:
   WindowOptimizer(const WindowOptimizerParams& params, const vision::StereoCalibration& calibration)
       : params_(params), calibration_(calibration) {}
 
-  /// Moves the poses of `window` (all but the first) and the landmarks. Returns whether it could.
+  /// Refines the poses of `window`, all but the first, and the landmarks. Returns false, and leaves both as
+  /// they are, if the observations do not determine them.
   bool optimise(std::vector<WindowFrame>& window, std::vector<Landmark>& landmarks);
 
  private:
@@ -70,7 +71,7 @@ class WindowOptimizer {
   };
   bool linearise(const std::vector<WindowFrame>& window, const std::vector<Landmark>& landmarks);
   void addLandmark(const std::vector<WindowFrame>& window, const Landmark& landmark, std::size_t index);
-  void addSkewPriors(const std::vector<WindowFrame>& window);
+  void addTimeOffsetPriors(const std::vector<WindowFrame>& window);
   void eliminate(const Elimination& elimination);
   void apply(const Eigen::VectorXd& step, std::vector<WindowFrame>& window,
              std::vector<Landmark>& landmarks) const;
@@ -81,8 +82,7 @@ class WindowOptimizer {
   Eigen::VectorXd gradient_;
   std::vector<Elimination> eliminations_;
   std::vector<CrossBlock> blocks_;
-  std::vector<Eigen::Index>
-      late_at_;  ///< first variable of T_late_camera per frame; negative where there is none
+  std::vector<Eigen::Index> late_at_;  ///< first variable of T_late_camera per frame; negative without one
 };
 
 }  // namespace stereo_nav::odometry

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "odometry/common/gauss_newton.h"
+#include "vision/reprojection.h"
+
 namespace stereo_nav::odometry {
 namespace {
 
-constexpr double kNearestDepth_m = 1e-3;
-
-/// Rotation and translation have 6 unknowns; with 3 residuals a pair, two pairs would leave nothing to judge
-/// by.
+/// Rotation and translation are 6 unknowns and a pair gives 3 residuals: two pairs would leave nothing to
+/// judge the motion by.
 constexpr std::size_t kFewestPairs = 3;
 
 struct NormalEquations {
@@ -19,12 +20,13 @@ struct NormalEquations {
 
 NormalEquations linearise(const RefinementParams& params, const vision::StereoCalibration& calibration,
                           const std::vector<PointPair>& pairs, const std::vector<bool>& used,
-                          const Eigen::Isometry3d& T_cur_prev) {
+                          const Eigen::Isometry3d& T_current_previous) {
   NormalEquations equations;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!used[i] || (T_cur_prev * pairs[i].p_previous).z() < kNearestDepth_m) continue;
+    if (!used[i] || !isProjectable(pairs[i], T_current_previous)) continue;
     Eigen::Matrix<double, 3, 6> jacobian;
-    const Eigen::Vector3d residual = reprojectionResidual(calibration, pairs[i], T_cur_prev, &jacobian);
+    const Eigen::Vector3d residual =
+        reprojectionResidual(calibration, pairs[i], T_current_previous, &jacobian);
     const double error_px = residual.norm();
     const double weight = error_px <= params.huber_px ? 1.0 : params.huber_px / error_px;
     equations.information.noalias() += weight * jacobian.transpose() * jacobian;
@@ -39,9 +41,9 @@ void selectInliers(const RefinementParams& params, const vision::StereoCalibrati
   motion.inliers = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     motion.inlier[i] = false;
-    if ((motion.T_cur_prev * pairs[i].p_previous).z() < kNearestDepth_m) continue;
+    if (!isProjectable(pairs[i], motion.T_current_previous)) continue;
     const double squared_px =
-        reprojectionResidual(calibration, pairs[i], motion.T_cur_prev, nullptr).squaredNorm();
+        reprojectionResidual(calibration, pairs[i], motion.T_current_previous, nullptr).squaredNorm();
     if (squared_px > params.max_error_px * params.max_error_px) continue;
     motion.inlier[i] = true;
     squares += squared_px;
@@ -54,13 +56,11 @@ bool descend(const RefinementParams& params, const vision::StereoCalibration& ca
              const std::vector<PointPair>& pairs, const std::vector<bool>& used, RefinedMotion& motion) {
   constexpr double kSmallStep = 1e-8;
   for (int i = 0; i < params.iterations; ++i) {
-    const NormalEquations equations = linearise(params, calibration, pairs, used, motion.T_cur_prev);
-    const Eigen::LDLT<Matrix6d> solver(equations.information);
-    if (solver.info() != Eigen::Success || !solver.isPositive()) return false;
-    const Vector6d step = solver.solve(-equations.gradient);
-    if (!step.allFinite()) return false;
-    motion.T_cur_prev = perturb(motion.T_cur_prev, step);
-    if (step.norm() < kSmallStep) break;
+    const NormalEquations equations = linearise(params, calibration, pairs, used, motion.T_current_previous);
+    const auto step = gaussNewtonStep(equations.information, equations.gradient);
+    if (!step) return false;
+    motion.T_current_previous = expMotion(*step) * motion.T_current_previous;
+    if (step->norm() < kSmallStep) break;
   }
   return true;
 }
@@ -74,9 +74,10 @@ void RefinementParams::describe(ParameterVisitor& visitor) {
   visitor.real("max_error_px", max_error_px, {0.01, 100.0}, "px", "reprojection error of an inlier at most");
 }
 
-Eigen::Vector3d meanTranslation(const Eigen::Matrix3d& R_cur_prev, const std::vector<PointPair>& pairs) {
+Eigen::Vector3d meanTranslation(const Eigen::Matrix3d& R_current_previous,
+                                const std::vector<PointPair>& pairs) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const PointPair& pair : pairs) sum += R_cur_prev * pair.p_previous - pair.p_current;
+  for (const PointPair& pair : pairs) sum += R_current_previous * pair.p_previous - pair.p_current;
   return sum / static_cast<double>(pairs.size());
 }
 
@@ -91,38 +92,26 @@ Eigen::Isometry3d alignPoints(const std::vector<PointPair>& pairs) {
 }
 
 Eigen::Vector3d reprojectionResidual(const vision::StereoCalibration& calibration, const PointPair& pair,
-                                     const Eigen::Isometry3d& T_cur_prev,
+                                     const Eigen::Isometry3d& T_current_previous,
                                      Eigen::Matrix<double, 3, 6>* jacobian) {
-  const Eigen::Vector3d p = T_cur_prev * pair.p_previous;
+  const Eigen::Vector3d p = T_current_previous * pair.p_previous;
   if (jacobian != nullptr) {
-    const double inverse_z = 1.0 / p.z();
     Eigen::Matrix3d by_point;
-    by_point << calibration.fx * inverse_z, 0.0, -calibration.fx * p.x() * inverse_z * inverse_z,  //
-        0.0, calibration.fy * inverse_z, -calibration.fy * p.y() * inverse_z * inverse_z,          //
-        calibration.fx * inverse_z, 0.0,
-        -calibration.fx * (p.x() - calibration.baseline_m) * inverse_z * inverse_z;
-    Eigen::Matrix3d minus_cross;
-    minus_cross << 0.0, p.z(), -p.y(), -p.z(), 0.0, p.x(), p.y(), -p.x(), 0.0;
-    jacobian->leftCols<3>() = by_point;
-    jacobian->rightCols<3>() = by_point * minus_cross;
+    by_point << vision::leftProjectionJacobian(calibration, p),
+        vision::rightProjectionJacobian(calibration, p).topRows<1>();
+    *jacobian = -by_point * vision::perturbationJacobian(p);
   }
-  return calibration.project(p) - calibration.project(pair.p_current);
+  return calibration.project(pair.p_current) - calibration.project(p);
 }
 
-Eigen::Isometry3d perturb(const Eigen::Isometry3d& T, const Vector6d& delta) {
-  Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d rotation = delta.tail<3>();
-  const double angle = rotation.norm();
-  if (angle > 0.0) step.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
-  step.translation() = delta.head<3>();
-  return step * T;
+bool isProjectable(const PointPair& pair, const Eigen::Isometry3d& T_current_previous) {
+  return (T_current_previous * pair.p_previous).z() >= vision::kNearestDepth_m;
 }
 
 RefinedMotion refineMotion(const RefinementParams& params, const vision::StereoCalibration& calibration,
-                           const std::vector<PointPair>& pairs, const Eigen::Isometry3d& T_cur_prev) {
+                           const std::vector<PointPair>& pairs, const Eigen::Isometry3d& T_current_previous) {
   RefinedMotion motion;
-  motion.T_cur_prev = T_cur_prev;
-  motion.covariance.setZero();
+  motion.T_current_previous = T_current_previous;
   motion.inlier.assign(pairs.size(), true);
   if (!descend(params, calibration, pairs, motion.inlier, motion)) return motion;
   selectInliers(params, calibration, pairs, motion);
@@ -135,12 +124,11 @@ RefinedMotion refineMotion(const RefinementParams& params, const vision::StereoC
   const double variance_px2 =
       motion.rms_px * motion.rms_px * static_cast<double>(3 * motion.inliers) / freedom;
   const Matrix6d information =
-      linearise(params, calibration, pairs, motion.inlier, motion.T_cur_prev).information;
+      linearise(params, calibration, pairs, motion.inlier, motion.T_current_previous).information;
   const Eigen::LDLT<Matrix6d> solver(information);
   motion.covariance = variance_px2 * solver.solve(Matrix6d::Identity());
   motion.converged = solver.isPositive() && motion.covariance.allFinite();
-  // The rotation must stay one over thousands of products.
-  motion.T_cur_prev.linear() = Eigen::Quaterniond(motion.T_cur_prev.linear()).normalized().toRotationMatrix();
+  motion.T_current_previous = renormalised(motion.T_current_previous);
   return motion;
 }
 

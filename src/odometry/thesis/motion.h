@@ -15,12 +15,13 @@ struct PointPair {
   Eigen::Vector3d p_current;   ///< left optical frame of the current image, m
 };
 
-/// Camera displacement, expressed in the current camera frame: t = (1/N) sum(R_cur_prev a_n - b_n) (thesis,
-/// step 7). `pairs` must not be empty.
-Eigen::Vector3d meanTranslation(const Eigen::Matrix3d& R_cur_prev, const std::vector<PointPair>& pairs);
+/// Camera displacement, expressed in the current camera frame: t = (1/N) sum(R_current_previous a_n - b_n)
+/// (thesis, step 7). `pairs` must not be empty.
+Eigen::Vector3d meanTranslation(const Eigen::Matrix3d& R_current_previous,
+                                const std::vector<PointPair>& pairs);
 
-/// T_cur_prev with the least sum of |T a - b|^2 (Umeyama 1991, without scale). Needs at least 3 pairs; of
-/// points on one line the rotation about that line is arbitrary.
+/// T_current_previous with the least sum of |T a - b|^2 (Umeyama 1991, without scale). Needs at least 3
+/// pairs; of points on one line the rotation about that line is arbitrary.
 Eigen::Isometry3d alignPoints(const std::vector<PointPair>& pairs);
 
 struct RefinementParams {
@@ -33,9 +34,9 @@ struct RefinementParams {
 
 /// What refineMotion() found.
 struct RefinedMotion {
-  Eigen::Isometry3d T_cur_prev = Eigen::Isometry3d::Identity();
-  Eigen::Matrix<double, 6, 6>
-      covariance;            ///< of the left perturbation (translation m, rotation rad), measured noise
+  Eigen::Isometry3d T_current_previous = Eigen::Isometry3d::Identity();
+  /// Of the left perturbation (translation m, rotation rad), scaled to the noise of the residuals.
+  Matrix6d covariance = Matrix6d::Zero();
   std::vector<bool> inlier;  ///< per pair: reprojection error at most max_error_px
   std::size_t inliers = 0;
   double rms_px = 0.0;  ///< over the inliers, of (x_left, y, x_right)
@@ -43,18 +44,19 @@ struct RefinedMotion {
 };
 
 /// Gauss-Newton with a Huber loss on the stereo reprojection error (x_left, y, x_right) in the current frame,
-/// of the points lifted in the previous one; then once more on those within max_error_px. Pairs with z <= 0
-/// are outliers.
+/// of the points lifted in the previous one; then once more on those within max_error_px. Pairs that cannot
+/// be projected are outliers.
 RefinedMotion refineMotion(const RefinementParams& params, const vision::StereoCalibration& calibration,
-                           const std::vector<PointPair>& pairs, const Eigen::Isometry3d& T_cur_prev);
+                           const std::vector<PointPair>& pairs, const Eigen::Isometry3d& T_current_previous);
 
-/// Residual of one pair (px: x_left, y, x_right; projected minus observed) and its Jacobian by the left
-/// perturbation T <- exp(translation, rotation) T. Public for its test.
+/// Residual of one pair (observed - projected, px: x_left, y, x_right) and its Jacobian by the left
+/// perturbation T <- expMotion(delta) T. The point must be at least vision::kNearestDepth_m in front of the
+/// current camera.
 Eigen::Vector3d reprojectionResidual(const vision::StereoCalibration& calibration, const PointPair& pair,
-                                     const Eigen::Isometry3d& T_cur_prev,
+                                     const Eigen::Isometry3d& T_current_previous,
                                      Eigen::Matrix<double, 3, 6>* jacobian);
 
-/// T <- exp(delta) T with delta = (translation m, rotation rad).
-Eigen::Isometry3d perturb(const Eigen::Isometry3d& T, const Eigen::Matrix<double, 6, 1>& delta);
+/// Whether the point of the pair lies far enough in front of the current camera to be projected.
+bool isProjectable(const PointPair& pair, const Eigen::Isometry3d& T_current_previous);
 
 }  // namespace stereo_nav::odometry

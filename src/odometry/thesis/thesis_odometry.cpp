@@ -35,12 +35,12 @@ std::string tooFew(const char* what, std::size_t seen, int needed, const char* c
 }
 
 double rmsReprojection(const vision::StereoCalibration& calibration, const std::vector<PointPair>& pairs,
-                       const Eigen::Isometry3d& T_cur_prev) {
+                       const Eigen::Isometry3d& T_current_previous) {
   double squares = 0.0;
   std::size_t count = 0;
   for (const PointPair& pair : pairs) {
-    if ((T_cur_prev * pair.p_previous).z() <= 0.0) continue;
-    squares += reprojectionResidual(calibration, pair, T_cur_prev, nullptr).squaredNorm();
+    if (!isProjectable(pair, T_current_previous)) continue;
+    squares += reprojectionResidual(calibration, pair, T_current_previous, nullptr).squaredNorm();
     ++count;
   }
   return std::sqrt(squares / static_cast<double>(3 * count));
@@ -174,11 +174,11 @@ void ThesisOdometry::estimate(const Tracked& tracked, const std::vector<std::siz
   for (const std::size_t member : clique) pairs.push_back(tracked.pairs[member]);
   std::vector<bool> inlier(pairs.size(), true);
 
-  const auto R_cur_prev = params_.rotation == ThesisParams::Rotation::kVision
-                              ? std::nullopt
-                              : imuRotation(reference_->time_s, time_s);
-  if (R_cur_prev) {
-    estimateWithImu(pairs, *R_cur_prev, result);
+  const auto R_current_previous = params_.rotation == ThesisParams::Rotation::kVision
+                                      ? std::nullopt
+                                      : imuRotation(reference_->time_s, time_s);
+  if (R_current_previous) {
+    estimateWithImu(pairs, *R_current_previous, result);
   } else if (params_.rotation == ThesisParams::Rotation::kImu) {
     result.reason =
         "no IMU rotation between the images: is the IMU running, and are its stamps of the same clock?";
@@ -199,18 +199,18 @@ void ThesisOdometry::estimate(const Tracked& tracked, const std::vector<std::siz
   clock.lap("estimate");
 }
 
-void ThesisOdometry::estimateWithImu(const std::vector<PointPair>& pairs, const Eigen::Matrix3d& R_cur_prev,
-                                     FrameResult& result) {
-  const Eigen::Vector3d t = meanTranslation(R_cur_prev, pairs);
-  Eigen::Isometry3d T_cur_prev = Eigen::Isometry3d::Identity();
-  T_cur_prev.linear() = R_cur_prev;
-  T_cur_prev.translation() = -t;
-  result.T_previous_camera = T_cur_prev.inverse();
-  result.reprojection_error_px = rmsReprojection(calibration_, pairs, T_cur_prev);
+void ThesisOdometry::estimateWithImu(const std::vector<PointPair>& pairs,
+                                     const Eigen::Matrix3d& R_current_previous, FrameResult& result) {
+  const Eigen::Vector3d t = meanTranslation(R_current_previous, pairs);
+  Eigen::Isometry3d T_current_previous = Eigen::Isometry3d::Identity();
+  T_current_previous.linear() = R_current_previous;
+  T_current_previous.translation() = -t;
+  result.T_previous_camera = T_current_previous.inverse();
+  result.reprojection_error_px = rmsReprojection(calibration_, pairs, T_current_previous);
 
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const PointPair& pair : pairs) {
-    const Eigen::Vector3d deviation = R_cur_prev * pair.p_previous - pair.p_current - t;
+    const Eigen::Vector3d deviation = R_current_previous * pair.p_previous - pair.p_current - t;
     scatter += deviation * deviation.transpose();
   }
   const auto n = static_cast<double>(pairs.size());
@@ -228,7 +228,7 @@ bool ThesisOdometry::estimateFromVision(const std::vector<PointPair>& pairs, std
     return false;
   }
   inlier = motion.inlier;
-  result.T_previous_camera = motion.T_cur_prev.inverse();
+  result.T_previous_camera = motion.T_current_previous.inverse();
   result.motion_covariance = motion.covariance;
   result.reprojection_error_px = motion.rms_px;
   return true;
@@ -249,8 +249,8 @@ void ThesisOdometry::adoptReference(const StereoFrame& frame, FrameResult& resul
   // A dark or blocked frame is no reference: the one before it stays, so that a short gap is bridged.
   if (next.corners.size() < static_cast<std::size_t>(params_.min_inliers)) return;
   if (reference_ && result.state == State::kLost) {
-    if (const auto R_cur_prev = imuRotation(reference_->time_s, frame.left_time_s)) {
-      R_tracked_reference_ = R_tracked_reference_ * R_cur_prev->transpose();
+    if (const auto R_current_previous = imuRotation(reference_->time_s, frame.left_time_s)) {
+      R_tracked_reference_ = R_tracked_reference_ * R_current_previous->transpose();
     }
   }
   reference_ = std::move(next);

@@ -21,8 +21,6 @@ struct ThesisParams {
     kVision,  ///< the features alone: closed form on the clique, refined on the reprojection error
     kAuto,    ///< the IMU where it covers the frame, the features elsewhere
   };
-  /// Which disparity map goes with a left image; kept by whoever feeds the odometry.
-
   vision::CornerDetectorParams corners;
   vision::KltParams tracking;
   vision::DisparityLifterParams depth;
@@ -66,7 +64,7 @@ class ThesisOdometry : public Odometry {
   std::vector<std::size_t> selectRigid(const Tracked& tracked, FrameResult& result) const;
   void estimate(const Tracked& tracked, const std::vector<std::size_t>& clique, double time_s,
                 FrameResult& result);
-  void estimateWithImu(const std::vector<PointPair>& pairs, const Eigen::Matrix3d& R_cur_prev,
+  void estimateWithImu(const std::vector<PointPair>& pairs, const Eigen::Matrix3d& R_current_previous,
                        FrameResult& result);
   bool estimateFromVision(const std::vector<PointPair>& pairs, std::vector<bool>& inlier,
                           FrameResult& result);

@@ -71,7 +71,7 @@ struct FrameResult {
   std::uint32_t inliers = 0;
   double reprojection_error_px = std::numeric_limits<double>::quiet_NaN();  ///< RMS over the inliers
   double rotation_disagreement_rad = std::numeric_limits<double>::quiet_NaN();
-  bool skew_compensated = false;
+  bool time_offset_compensated = false;
   std::vector<FeatureReport> features;
   std::vector<StageTime> stage_times;
 };

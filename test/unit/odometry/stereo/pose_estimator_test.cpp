@@ -75,7 +75,7 @@ TEST_F(PoseEstimatorTest, FindsTheMotionBetweenSkewedStamps) {
   constexpr double kSkew_s = 0.05;
   truth.T_late_camera = expMotion(twist * kSkew_s);
   MotionPrior skewed = prior();
-  skewed.skew_s = kSkew_s;
+  skewed.right_time_offset_s = kSkew_s;
   skewed.previous_twist = 0.9 * twist;
   const PoseEstimate estimate = estimator.estimate(observations(0.0), skewed, vision::StereoView());
   ASSERT_TRUE(estimate.converged);
@@ -85,7 +85,7 @@ TEST_F(PoseEstimatorTest, FindsTheMotionBetweenSkewedStamps) {
 
 TEST_F(PoseEstimatorTest, FollowsASharpRotationPrior) {
   MotionPrior with_imu = prior();
-  with_imu.R_camera_previous = truth.T_camera_world.linear();
+  with_imu.R_current_previous = truth.T_camera_world.linear();
   with_imu.rotation_sigma_rad = 1e-6;
   const PoseEstimate estimate = estimator.estimate(observations(1.0), with_imu, vision::StereoView());
   ASSERT_TRUE(estimate.converged);

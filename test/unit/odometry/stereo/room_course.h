@@ -15,19 +15,20 @@ inline constexpr int kFrames = 12;
 /// Drives through the textured room; both images are rendered at their own times.
 class StereoOdometryTest : public ::testing::Test {
  protected:
-  StereoFrame frameAt(double time_s, double skew_s = 0.0) const {
+  StereoFrame frameAt(double time_s, double offset_s = 0.0) const {
     StereoFrame frame;
     frame.left_time_s = time_s;
-    frame.right_time_s = time_s + skew_s;
-    const auto pair = room.renderPair(test::roomDrive(time_s), test::roomDrive(time_s + skew_s), calibration);
+    frame.right_time_s = time_s + offset_s;
+    const auto pair =
+        room.renderPair(test::roomDrive(time_s), test::roomDrive(time_s + offset_s), calibration);
     frame.left = pair.left;
     frame.right = pair.right;
     return frame;
   }
 
-  std::vector<StereoFrame> course(double skew_s = 0.0) const {
+  std::vector<StereoFrame> course(double offset_s = 0.0) const {
     std::vector<StereoFrame> frames;
-    for (int i = 0; i < kFrames; ++i) frames.push_back(frameAt(kPeriod_s * i, skew_s));
+    for (int i = 0; i < kFrames; ++i) frames.push_back(frameAt(kPeriod_s * i, offset_s));
     return frames;
   }
 

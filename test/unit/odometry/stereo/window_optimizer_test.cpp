@@ -11,19 +11,19 @@ namespace {
 /// Five frames along a curve that see 80 points; poses and landmarks start wrong.
 class WindowOptimizerTest : public ::testing::Test {
  protected:
-  void build(double skew_s) {
+  void build(double offset_s) {
     Vector6d twist;
     twist << 0.1, 0.02, -0.4, 0.02, 0.1, 0.01;
     for (int f = 0; f < 5; ++f) {
       WindowFrame frame;
       frame.view.T_camera_world = expMotion(twist * f);
-      frame.view.T_late_camera = expMotion(twist * skew_s);
+      frame.view.T_late_camera = expMotion(twist * offset_s);
       truth.push_back(frame.view);
-      if (skew_s != 0.0) {
-        frame.skewed = true;
+      if (offset_s != 0.0) {
+        frame.has_time_offset = true;
         frame.late_sigma.setConstant(0.005);
         frame.T_late_expected = frame.view.T_late_camera;
-        frame.view.T_late_camera = expMotion(0.7 * twist * skew_s);
+        frame.view.T_late_camera = expMotion(0.7 * twist * offset_s);
       }
       Vector6d error = Vector6d::Constant(0.01);
       if (f > 0) frame.view.T_camera_world = expMotion(error) * frame.view.T_camera_world;
@@ -69,7 +69,7 @@ TEST_F(WindowOptimizerTest, FindsPosesAndLandmarksOfASynchronousWindow) {
   EXPECT_LT(worstPoint(), 1e-3);
 }
 
-TEST_F(WindowOptimizerTest, FindsTheMotionBetweenSkewedStampsToo) {
+TEST_F(WindowOptimizerTest, FindsTheMotionBetweenDifferentStampsToo) {
   build(0.5);
   WindowOptimizerParams params;
   params.iterations = 30;

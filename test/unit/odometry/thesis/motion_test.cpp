@@ -21,15 +21,15 @@ vision::StereoCalibration calibration() {
 }
 
 Eigen::Isometry3d exampleMotion() {
-  Eigen::Isometry3d T_cur_prev = Eigen::Isometry3d::Identity();
-  T_cur_prev.linear() =
+  Eigen::Isometry3d T_current_previous = Eigen::Isometry3d::Identity();
+  T_current_previous.linear() =
       Eigen::AngleAxisd(0.05, Eigen::Vector3d(0.2, 1.0, -0.3).normalized()).toRotationMatrix();
-  T_cur_prev.translation() << 0.02, -0.01, -0.12;
-  return T_cur_prev;
+  T_current_previous.translation() << 0.02, -0.01, -0.12;
+  return T_current_previous;
 }
 
 /// Points in view, moved exactly, then seen with pixel noise in the current frame.
-std::vector<PointPair> scene(std::size_t count, const Eigen::Isometry3d& T_cur_prev, double noise_px,
+std::vector<PointPair> scene(std::size_t count, const Eigen::Isometry3d& T_current_previous, double noise_px,
                              unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(40.0, 600.0);
@@ -41,7 +41,7 @@ std::vector<PointPair> scene(std::size_t count, const Eigen::Isometry3d& T_cur_p
   while (pairs.size() < count) {
     const Eigen::Vector3d p_previous =
         c.backProject(u(random), v(random), c.fx * c.baseline_m / depth(random));
-    Eigen::Vector3d pixels = c.project(T_cur_prev * p_previous);
+    Eigen::Vector3d pixels = c.project(T_current_previous * p_previous);
     for (int k = 0; k < 3; ++k) pixels[k] += noise_px * noise(random);
     const double disparity_px = (pixels.x() - c.cx) - (pixels.z() - c.right_cx);
     if (disparity_px < 1.0) continue;
@@ -55,31 +55,31 @@ double angleBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 }
 
 TEST(MeanTranslation, IsTheDisplacementInTheCurrentFrame) {
-  const Eigen::Isometry3d T_cur_prev = exampleMotion();
-  const auto pairs = scene(20, T_cur_prev, 0.0, 1);
-  const Eigen::Vector3d t = meanTranslation(T_cur_prev.linear(), pairs);
+  const Eigen::Isometry3d T_current_previous = exampleMotion();
+  const auto pairs = scene(20, T_current_previous, 0.0, 1);
+  const Eigen::Vector3d t = meanTranslation(T_current_previous.linear(), pairs);
   // b = R a + translation, so R a - b is what the camera moved, seen from where it is now.
-  EXPECT_TRUE(t.isApprox(-T_cur_prev.translation(), 1e-9)) << t.transpose();
+  EXPECT_TRUE(t.isApprox(-T_current_previous.translation(), 1e-9)) << t.transpose();
 }
 
 TEST(AlignPoints, RecoversAnExactMotion) {
-  const Eigen::Isometry3d T_cur_prev = exampleMotion();
-  EXPECT_TRUE(alignPoints(scene(3, T_cur_prev, 0.0, 2)).isApprox(T_cur_prev, 1e-9));
+  const Eigen::Isometry3d T_current_previous = exampleMotion();
+  EXPECT_TRUE(alignPoints(scene(3, T_current_previous, 0.0, 2)).isApprox(T_current_previous, 1e-9));
 }
 
 TEST(ReprojectionJacobian, AgreesWithNumericDifferences) {
-  const Eigen::Isometry3d T_cur_prev = exampleMotion();
-  for (const PointPair& pair : scene(10, T_cur_prev, 1.0, 3)) {
+  const Eigen::Isometry3d T_current_previous = exampleMotion();
+  for (const PointPair& pair : scene(10, T_current_previous, 1.0, 3)) {
     Eigen::Matrix<double, 3, 6> jacobian;
-    reprojectionResidual(calibration(), pair, T_cur_prev, &jacobian);
+    reprojectionResidual(calibration(), pair, T_current_previous, &jacobian);
     constexpr double kStep = 1e-6;
     for (int k = 0; k < 6; ++k) {
       Eigen::Matrix<double, 6, 1> delta = Eigen::Matrix<double, 6, 1>::Zero();
       delta[k] = kStep;
       const Eigen::Vector3d ahead =
-          reprojectionResidual(calibration(), pair, perturb(T_cur_prev, delta), nullptr);
+          reprojectionResidual(calibration(), pair, expMotion(delta) * T_current_previous, nullptr);
       const Eigen::Vector3d behind =
-          reprojectionResidual(calibration(), pair, perturb(T_cur_prev, -delta), nullptr);
+          reprojectionResidual(calibration(), pair, expMotion(-delta) * T_current_previous, nullptr);
       const Eigen::Vector3d numeric = (ahead - behind) / (2.0 * kStep);
       EXPECT_LT((numeric - jacobian.col(k)).norm(), 1e-4 * std::max(1.0, numeric.norm()))
           << "parameter " << k;
@@ -88,27 +88,27 @@ TEST(ReprojectionJacobian, AgreesWithNumericDifferences) {
 }
 
 TEST(RefineMotion, ConvergesFromAFarStartAndRejectsWrongPairs) {
-  const Eigen::Isometry3d T_cur_prev = exampleMotion();
-  auto pairs = scene(60, T_cur_prev, 0.0, 4);
+  const Eigen::Isometry3d T_current_previous = exampleMotion();
+  auto pairs = scene(60, T_current_previous, 0.0, 4);
   for (std::size_t i = 0; i < 10; ++i) pairs[i].p_current += Eigen::Vector3d(0.3, 0.2, -0.4);
   const RefinedMotion motion = refineMotion({}, calibration(), pairs, Eigen::Isometry3d::Identity());
   ASSERT_TRUE(motion.converged);
   EXPECT_EQ(motion.inliers, 50u);
   for (std::size_t i = 0; i < pairs.size(); ++i) EXPECT_EQ(motion.inlier[i], i >= 10);
-  EXPECT_LT((motion.T_cur_prev.translation() - T_cur_prev.translation()).norm(), 1e-6);
-  EXPECT_LT(angleBetween(motion.T_cur_prev, T_cur_prev), 1e-7);
+  EXPECT_LT((motion.T_current_previous.translation() - T_current_previous.translation()).norm(), 1e-6);
+  EXPECT_LT(angleBetween(motion.T_current_previous, T_current_previous), 1e-7);
 }
 
 TEST(RefineMotion, CovarianceIsThatOfTheErrors) {
-  const Eigen::Isometry3d T_cur_prev = exampleMotion();
+  const Eigen::Isometry3d T_current_previous = exampleMotion();
   constexpr int kRuns = 400;
   double normalised_squares = 0.0;
   for (unsigned run = 0; run < kRuns; ++run) {
-    const auto pairs = scene(80, T_cur_prev, 0.3, 100 + run);
-    const RefinedMotion motion = refineMotion({}, calibration(), pairs, T_cur_prev);
+    const auto pairs = scene(80, T_current_previous, 0.3, 100 + run);
+    const RefinedMotion motion = refineMotion({}, calibration(), pairs, T_current_previous);
     ASSERT_TRUE(motion.converged);
     // Left perturbation that leads from the truth to the estimate; angles are small.
-    const Eigen::Isometry3d error = motion.T_cur_prev * T_cur_prev.inverse();
+    const Eigen::Isometry3d error = motion.T_current_previous * T_current_previous.inverse();
     Eigen::Matrix<double, 6, 1> delta;
     const Eigen::AngleAxisd rotation(error.linear());
     delta << error.translation(), rotation.angle() * rotation.axis();

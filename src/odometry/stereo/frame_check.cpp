@@ -1,9 +1,8 @@
-// StereoOdometry: frames that it refuses.
+#include "odometry/stereo/frame_check.h"
+
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
-
-#include "odometry/stereo/stereo_odometry.h"
 
 namespace stereo_nav::odometry {
 namespace {
@@ -21,8 +20,9 @@ void checkImages(const StereoFrame& frame, const vision::StereoCalibration& cali
 }
 
 void checkStamps(const StereoFrame& frame) {
-  constexpr double kMostSkew_s = 1.0;
-  if (std::isfinite(frame.left_time_s) && std::abs(frame.right_time_s - frame.left_time_s) <= kMostSkew_s)
+  constexpr double kLargestTimeOffset_s = 1.0;
+  if (std::isfinite(frame.left_time_s) &&
+      std::abs(frame.right_time_s - frame.left_time_s) <= kLargestTimeOffset_s)
     return;
   std::ostringstream message;
   message << std::fixed << "the left image was taken at " << frame.left_time_s << " s, the right one at "
@@ -41,13 +41,17 @@ void checkReadout(const StereoFrame& frame) {
 
 }  // namespace
 
-void StereoOdometry::checkFrame(const StereoFrame& frame) const {
-  checkImages(frame, calibration_);
+void checkFrame(const StereoFrame& frame, const vision::StereoCalibration& calibration) {
+  checkImages(frame, calibration);
   checkStamps(frame);
   checkReadout(frame);
-  if (window_.empty() || frame.left_time_s > last_left_time_s_) return;
+}
+
+void checkOrder(const StereoFrame& frame, double previous_left_time_s) {
+  if (frame.left_time_s > previous_left_time_s) return;
   std::ostringstream message;
-  message << "a frame at " << std::fixed << frame.left_time_s << " s came after one at " << last_left_time_s_
+  message << "a frame at " << std::fixed << frame.left_time_s << " s came after one at "
+          << previous_left_time_s
           << " s: each must be later than the one before; reset() lets a recording begin again";
   throw std::invalid_argument(message.str());
 }

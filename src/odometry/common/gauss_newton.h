@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <optional>
+
+namespace stereo_nav::odometry {
+
+/// The step to the minimum of a least-squares problem, linearised: information * step = -gradient, with the
+/// information J^T W J and the gradient J^T W r of residuals (observed - projected) under left perturbations
+/// T <- expMotion(delta) T. Only the lower triangle of the information is read. Nothing if the residuals do
+/// not determine the step.
+template <typename Matrix, typename Vector>
+std::optional<Vector> gaussNewtonStep(const Matrix& information, const Vector& gradient) {
+  const Eigen::LDLT<Matrix> solver(information);
+  if (solver.info() != Eigen::Success || !solver.isPositive()) return std::nullopt;
+  Vector step = solver.solve(-gradient);
+  if (!step.allFinite()) return std::nullopt;
+  return step;
+}
+
+}  // namespace stereo_nav::odometry

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "odometry/stereo/frame_prediction.h"
+#include "odometry/stereo/local_map.h"
+#include "odometry/stereo/track.h"
+#include "vision/patch_tracker.h"
+
+namespace stereo_nav::odometry {
+
+/// Follows the features of the last keyframe through the left images. Patches are always compared with the
+/// keyframe, so that their positions do not drift from frame to frame.
+class FeatureFollower {
+ public:
+  FeatureFollower(const vision::PatchTrackerParams& params, int pyramid_levels)
+      : tracker_(params), coarsest_level_(pyramid_levels - 1) {}
+
+  /// Forgets the keyframe and its features.
+  void reset();
+
+  std::vector<Track>& tracks() { return tracks_; }
+  const std::vector<Track>& tracks() const { return tracks_; }
+
+  /// Takes over where the map has the landmarks of the tracks.
+  void updatePoints(const LocalMap& map);
+
+  /// Looks for the features in `left` where `prediction` has them, then where they were, then after an
+  /// unpredicted turn of the camera as a whole, then at half the resolution for images with motion blur.
+  /// Without `is_predicted` the search begins where they were.
+  void follow(const vision::ImagePyramid& left, const FramePrediction& prediction, bool is_predicted);
+  /// Looks once more, near `prediction`, for those that were not found or were no inliers. Returns the tracks
+  /// that were found.
+  TrackIndices recover(const vision::ImagePyramid& left, const FramePrediction& prediction);
+
+  /// Makes the current frame the keyframe: inliers go on, the others are not looked for any more.
+  void startKeyframe(const vision::ImagePyramid& left);
+  /// A new feature of the keyframe.
+  void add(const Track& track) { tracks_.push_back(track); }
+  /// Removes the tracks whose landmark the map has given up.
+  void removeTracksWithout(const LocalMap& map);
+
+ private:
+  struct Search {
+    Eigen::Vector2d guess_px;
+    int coarsest_level;
+    Eigen::Matrix2f patch_step;
+    int finest_level;
+  };
+  bool find(const vision::ImagePyramid& left, const Search& search, Track& track) const;
+  void beginFrame();
+  bool lostMany() const;
+  void findAfterTurn(const vision::ImagePyramid& left);
+  void findBlurred(const vision::ImagePyramid& left, const FramePrediction& prediction, bool is_predicted);
+
+  vision::PatchTracker tracker_;
+  int coarsest_level_;
+  vision::ImagePyramid keyframe_image_;
+  std::vector<Track> tracks_;
+};
+
+}  // namespace stereo_nav::odometry

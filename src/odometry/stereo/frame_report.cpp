@@ -1,0 +1,59 @@
+#include "odometry/stereo/frame_report.h"
+
+#include <sstream>
+
+#include "vision/pixel.h"
+
+namespace stereo_nav::odometry {
+namespace {
+
+FeatureReport::Fate fate(const Track& track) {
+  if (track.fresh) return FeatureReport::Fate::kDetected;
+  if (track.inlier) return FeatureReport::Fate::kInlier;
+  return track.at_stamp.has_right ? FeatureReport::Fate::kRejected : FeatureReport::Fate::kNoDepth;
+}
+
+}  // namespace
+
+void reportTracks(const std::vector<Track>& tracks, const Eigen::Isometry3d& T_camera_world,
+                  FrameResult& result) {
+  for (const Track& track : tracks) {
+    if (!track.found) continue;
+    FeatureReport report;
+    report.id = track.landmark_id;
+    report.current_px = vision::toCv(track.in_image.left_px);
+    report.previous_px = track.fresh ? report.current_px : vision::toCv(track.previous_px);
+    report.fate = fate(track);
+    report.p_camera = T_camera_world * track.p_world;
+    if (report.fate == FeatureReport::Fate::kInlier) ++result.inliers;
+    result.features.push_back(report);
+  }
+}
+
+std::string tooFewLandmarks(std::size_t landmarks, int needed) {
+  std::ostringstream message;
+  message << "only " << landmarks << " features with depth, " << needed
+          << " needed: dark, blocked or without texture; or the cameras are not those of the calibration";
+  return message.str();
+}
+
+std::string tooFewInliers(std::size_t inliers, std::size_t tracked, int needed) {
+  std::ostringstream message;
+  message << "only " << inliers << " of " << tracked << " tracked features agree with one motion, " << needed
+          << " needed: dark, blocked, without texture, moved too far, or moving objects fill the view";
+  return message.str();
+}
+
+std::string blankImage(std::size_t corners) {
+  std::ostringstream message;
+  message << "the left image is blank, " << corners
+          << " corners: dark, covered, or overexposed; the features seen before are waited for";
+  return message.str();
+}
+
+std::string moverFillsView() {
+  return "most of what is seen moves as no robot could have begun to within a frame: something that moves on "
+         "its own fills the view; the features seen before are waited for";
+}
+
+}  // namespace stereo_nav::odometry

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "odometry/stereo/track.h"
+#include "stereo_nav/odometry/common/odometry.h"
+
+namespace stereo_nav::odometry {
+
+/// Adds what became of the tracks of a frame to its result; `T_camera_world` is the pose of the last frame
+/// that had one.
+void reportTracks(const std::vector<Track>& tracks, const Eigen::Isometry3d& T_camera_world,
+                  FrameResult& result);
+
+/// Why a frame is lost or a map could not begin.
+std::string tooFewLandmarks(std::size_t landmarks, int needed);
+std::string tooFewInliers(std::size_t inliers, std::size_t tracked, int needed);
+std::string blankImage(std::size_t corners);
+std::string moverFillsView();
+
+}  // namespace stereo_nav::odometry

@@ -1,0 +1,27 @@
+#include "odometry/stereo/stereo_params.h"
+
+#include "stereo_nav/core/parameters.h"
+
+namespace stereo_nav::odometry {
+
+void StereoParams::describe(ParameterVisitor& visitor) {
+  visitor.integer("pyramid_levels", pyramid_levels, {1, 8}, "", "image sizes, each half the one before");
+  visitSection(visitor, "corners", corners);
+  visitSection(visitor, "tracking", tracking);
+  visitSection(visitor, "stereo", stereo);
+  visitSection(visitor, "rigidity", rigidity);
+  clique.describe(visitor);
+  visitSection(visitor, "motion", motion);
+  visitSection(visitor, "window", window);
+  visitSection(visitor, "keyframes", keyframes);
+  visitSection(visitor, "imu", imu);
+  visitor.integer("min_inliers", min_inliers, {4, 1000}, "",
+                  "a frame in which fewer features agree on one motion is lost");
+  visitor.integer(
+      "max_lost_frames", max_lost_frames, {0, 1000}, "",
+      "consecutive lost frames after which the map is given up and a new one is begun; blank images "
+      "do not count");
+  motion_model.describe(visitor);
+}
+
+}  // namespace stereo_nav::odometry
