@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Check what no compiler checks: package, formatting, floors, sizes, scripts, launch files, documents.
 #
-#   scripts/lint.sh [--tidy [BUILD_DIR]]
+#   scripts/lint.sh [--tidy [BUILD_DIR [FILE...]]]
 #
-# --tidy runs clang-tidy instead, over all of src/ as BUILD_DIR (build/ unless given) compiles it; .clang-tidy lists the
-# checks. That takes minutes.
+# --tidy runs clang-tidy instead, over all of src/ (or these files) as BUILD_DIR (build/ unless given) compiles it;
+# .clang-tidy lists the checks. All of src/ takes minutes.
 #
 # Prints one line a check in the Test Anything Protocol, what is wrong on standard error. A check whose tool is missing
 # is skipped. Works on the files that git tracks.
@@ -115,7 +115,7 @@ command_check() (
 
 case ${1:-} in
   --tidy)
-    check clang_tidy /usr/bin/python3 scripts/lib/tidy.py "${2:-build}"
+    check clang_tidy /usr/bin/python3 scripts/lib/tidy.py "${@:2}"
     [[ $failures -eq 0 ]]
     exit
     ;;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""tidy.py BUILD_DIR [FILE...]: clang-tidy over the sources of src/ (or these of them) as BUILD_DIR compiles them.
+"""tidy.py [BUILD_DIR [FILE...]]: clang-tidy over the sources of src/ (or these of them) as BUILD_DIR
+(build/ unless given) compiles them.
 
 Runs one process a core. Prints what clang-tidy finds, each finding once, and exits with status 1 where there is one, with
 77 where clang-tidy 14 is not installed.
@@ -38,9 +39,7 @@ def findings(tool, build_dir, path):
 
 
 def main(arguments):
-    if not arguments:
-        sys.exit(__doc__)
-    build_dir = Path(arguments[0]).resolve()
+    build_dir = Path(arguments[0] if arguments else ROOT / 'build').resolve()
     tool = shutil.which('clang-tidy-14')
     if not tool:
         print('clang-tidy-14 is not installed')

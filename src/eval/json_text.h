@@ -31,7 +31,8 @@ class JsonObject {
   }
   std::string indented(const std::string& indent) const {
     std::string text;
-    for (const auto& member : members_) text += (text.empty() ? "\n" : ",\n") + indent + member;
+    for (const auto& member : members_)
+      text.append(text.empty() ? "\n" : ",\n").append(indent).append(member);
     return text;
   }
 

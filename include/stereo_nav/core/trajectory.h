@@ -8,8 +8,8 @@ namespace stereo_nav {
 
 /// Pose of a body at an instant; takes coordinates of the body frame into a fixed world frame.
 struct StampedPose {
-  double time_s = 0.0;
-  Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
+  double time_s = 0.0;                                             ///< seconds since any fixed moment
+  Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();  ///< pose of the body in the world
 };
 
 /// In order of time, no stamp twice. std::vector needs no aligned allocator in C++17.

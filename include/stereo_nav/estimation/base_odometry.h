@@ -9,22 +9,24 @@
 
 namespace stereo_nav::estimation {
 
+/// What the uncertainty of a motion is at least, and what it is while none is measured.
 struct UncertaintyParams {
-  double min_translation_sigma_m = 0.001;
-  double min_rotation_sigma_rad = 0.0005;
-  double lost_speed_m_s = 1.0;
-  double lost_turn_rate_rad_s = 1.0;
+  double min_translation_sigma_m = 0.001;  ///< per frame and axis
+  double min_rotation_sigma_rad = 0.0005;  ///< per frame and axis
+  double lost_speed_m_s = 1.0;             ///< while no motion is measured
+  double lost_turn_rate_rad_s = 1.0;       ///< while no motion is measured
 
+  /// Names, ranges and meanings of the parameters.
   void describe(ParameterVisitor& visitor);
 };
 
 /// Pose and velocity of the base as nav_msgs/Odometry wants them; covariances in the order x y z, then
 /// rotation about x y z.
 struct BaseEstimate {
-  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
-  Matrix6d pose_covariance = Matrix6d::Zero();  ///< axes of odom
-  Vector6d twist = Vector6d::Zero();            ///< m/s, rad/s; axes of base_link
-  Matrix6d twist_covariance = Matrix6d::Zero();
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();  ///< pose of base_link in odom
+  Matrix6d pose_covariance = Matrix6d::Zero();                    ///< axes of odom
+  Vector6d twist = Vector6d::Zero();                              ///< m/s, rad/s; axes of base_link
+  Matrix6d twist_covariance = Matrix6d::Zero();                   ///< axes of base_link
 };
 
 /// Carries the camera's motion over to the base: T_odom_base = T_odom_start T_base_camera T_start_camera
@@ -37,6 +39,7 @@ struct BaseEstimate {
 /// motion by its duration squared.
 class BaseOdometry {
  public:
+  /// Starts at the identity with the least covariance.
   BaseOdometry(const UncertaintyParams& params, const Eigen::Isometry3d& T_base_camera);
 
   /// For the motions to come.
@@ -47,7 +50,9 @@ class BaseOdometry {
   /// From now on the base is said to be at `T_odom_base`; motion goes on.
   void setPose(const Eigen::Isometry3d& T_odom_base, const Matrix6d& pose_covariance);
 
+  /// Adds the motion of a frame that was taken at `time_s`, in order of time.
   const BaseEstimate& update(const odometry::FrameResult& result, double time_s);
+  /// After the newest frame.
   const BaseEstimate& estimate() const { return estimate_; }
 
  private:

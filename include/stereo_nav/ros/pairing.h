@@ -11,11 +11,11 @@ namespace stereo_nav::ros_io {
 
 /// Indices into the lists of left and right image stamps, and when the images were taken.
 struct StampPair {
-  std::size_t left;
-  std::size_t right;
-  double left_time_s;
-  double right_time_s;
-  double rolling_shutter_s = 0.0;
+  std::size_t left;                ///< index of the left stamp
+  std::size_t right;               ///< index of the right stamp
+  double left_time_s;              ///< when the left image was taken
+  double right_time_s;             ///< when the right image was taken
+  double rolling_shutter_s = 0.0;  ///< from the first row to the last
 };
 
 /// Which images of a recording belong together, in order of the left stamps; each image at most once.

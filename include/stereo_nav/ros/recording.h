@@ -21,18 +21,18 @@ namespace stereo_nav::ros_io {
 
 /// Which part of a recording is read, s.
 struct RecordingOptions {
-  double start_s = 0.0;  ///< after the first left image
-  double duration_s = std::numeric_limits<double>::infinity();
+  double start_s = 0.0;                                         ///< after the first left image
+  double duration_s = std::numeric_limits<double>::infinity();  ///< from there on
   std::optional<double> rolling_shutter_s;  ///< in place of what camera/sync says; 0: global shutter
 };
 
 /// One pair of raw images as recorded, grey, with the true exposure times.
 struct RawPair {
-  double left_time_s;
-  double right_time_s;
-  double rolling_shutter_s;
-  cv::Mat left;   ///< CV_8UC1
-  cv::Mat right;  ///< CV_8UC1
+  double left_time_s;        ///< when the left image was taken
+  double right_time_s;       ///< when the right image was taken
+  double rolling_shutter_s;  ///< from the first row to the last
+  cv::Mat left;              ///< CV_8UC1
+  cv::Mat right;             ///< CV_8UC1
 };
 
 /// A bag with the topics of a stereo rig (`camera/{left,right}/{image_raw,camera_info}`, and when there are
@@ -42,12 +42,18 @@ struct RawPair {
 /// the IMU.
 class Recording {
  public:
+  /// Opens the bag and reads all but the images.
   Recording(const std::string& path, const RecordingOptions& options);
 
+  /// The first camera_info of the left camera.
   const sensor_msgs::CameraInfo& leftInfo() const { return left_info_; }
+  /// The first camera_info of the right camera.
   const sensor_msgs::CameraInfo& rightInfo() const { return right_info_; }
+  /// Number of pairs that forEachPair() hands out.
   std::size_t pairs() const { return pairs_.size(); }
+  /// Number of images that belong to no pair.
   std::size_t unpairedImages() const { return unpaired_images_; }
+  /// All samples in order of time.
   const std::vector<ImuSample>& imu() const { return imu_; }
   const std::string& imuFrame() const { return imu_frame_; }  ///< empty: none given, or no IMU
 
@@ -59,9 +65,10 @@ class Recording {
   /// they are (empty when the type does not say). Empty trajectory when the bag has no such topic and none
   /// was named.
   struct GroundTruth {
-    Trajectory trajectory;
-    std::string body_frame;
+    Trajectory trajectory;   ///< in order of time
+    std::string body_frame;  ///< of which the poses are
   };
+  /// The ground truth on `topic`; throws InputError where it is `required` and missing.
   GroundTruth groundTruth(const std::string& topic, bool required) const;
 
   /// Every pair once, in order of the left stamps. Throws InputError for an image that cannot be used.

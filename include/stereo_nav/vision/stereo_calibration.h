@@ -22,7 +22,7 @@ struct StereoCalibration {
   /// Row of the raw image that each pixel comes from, CV_32FC1; empty: its own row. Rolling shutters count
   /// there.
   cv::Mat left_raw_rows;
-  cv::Mat right_raw_rows;
+  cv::Mat right_raw_rows;  ///< the same of the right image
 
   /// Throws std::invalid_argument that says which value is impossible (NaN, no baseline, no size).
   void validate() const;

@@ -18,8 +18,8 @@ constexpr double kLongestReadout_s = 0.2;  ///< no rolling shutter takes longer
 
 /// A rectified stereo pair. Left and right carry their own times: two free-running cameras never agree.
 struct StereoFrame {
-  double left_time_s = 0.0;
-  double right_time_s = 0.0;
+  double left_time_s = 0.0;   ///< when the left image was taken
+  double right_time_s = 0.0;  ///< when the right image was taken
   /// Rolling shutter: time from the first row to the last; the times above are the middle row's.
   double readout_s = 0.0;
   cv::Mat left;       ///< CV_8UC1, rectified
@@ -34,46 +34,48 @@ enum class DisparityUse {
   kLatest,   ///< the newest that has come, often that of the frame before, as the thesis' program did
 };
 
+/// How the pose of a frame was found.
 enum class State { kInitialising, kTracking, kCoasting, kLost };  // as in VoStatus.msg
 
 /// What became of one feature of the left image, for pictures and clouds.
 struct FeatureReport {
+  /// How far a feature came: kInlier passed every test.
   enum class Fate { kDetected, kTracked, kNoDepth, kRejected, kInlier };
-  std::uint64_t id = 0;
+  std::uint64_t id = 0;  ///< the same while the feature is followed
   cv::Point2f
       previous_px;  ///< where it was in the frame the motion is measured against; equals current_px if new
-  cv::Point2f current_px;
-  Fate fate = Fate::kDetected;
+  cv::Point2f current_px;                              ///< where it is in the left image
+  Fate fate = Fate::kDetected;                         ///< how far it came
   Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  ///< left optical frame, m; zero if without depth
 };
 
 /// Wall-clock time that a stage of this frame took.
 struct StageTime {
-  const char* stage;
-  double milliseconds;
+  const char* stage;    ///< name of the stage, a literal
+  double milliseconds;  ///< wall-clock time
 };
 
 /// Everything that one frame yields. Poses are of the left optical frame, relative to its pose in the first
 /// frame.
 struct FrameResult {
-  State state = State::kInitialising;
+  State state = State::kInitialising;  ///< what the frame means for the pose
   std::string reason;  ///< why it is not kTracking: what was seen, the likely cause, the remedy
   Eigen::Isometry3d T_start_camera = Eigen::Isometry3d::Identity();     ///< held while lost
   Eigen::Isometry3d T_previous_camera = Eigen::Isometry3d::Identity();  ///< motion since the previous frame
   Matrix6d motion_covariance =
-      Matrix6d::Zero();  ///< of T_previous_camera, current camera frame: m, m, m, rad, rad, rad
-  bool keyframe = false;
-  std::uint32_t keyframe_id = 0;
-  std::uint32_t features_detected = 0;
-  std::uint32_t features_tracked = 0;
-  std::uint32_t features_with_depth = 0;
-  std::uint32_t clique_size = 0;
-  std::uint32_t inliers = 0;
-  double reprojection_error_px = std::numeric_limits<double>::quiet_NaN();  ///< RMS over the inliers
-  double rotation_disagreement_rad = std::numeric_limits<double>::quiet_NaN();
-  bool time_offset_compensated = false;
-  std::vector<FeatureReport> features;
-  std::vector<StageTime> stage_times;
+      Matrix6d::Zero();           ///< of T_previous_camera, current camera frame: m, m, m, rad, rad, rad
+  bool keyframe = false;          ///< whether this frame became a keyframe
+  std::uint32_t keyframe_id = 0;  ///< of the newest keyframe
+  std::uint32_t features_detected = 0;    ///< all features of the left image
+  std::uint32_t features_tracked = 0;     ///< those found again
+  std::uint32_t features_with_depth = 0;  ///< those of the tracked ones with a depth
+  std::uint32_t clique_size = 0;          ///< features that moved rigidly together
+  std::uint32_t inliers = 0;              ///< features that the motion was computed from
+  double reprojection_error_px = std::numeric_limits<double>::quiet_NaN();      ///< RMS over the inliers
+  double rotation_disagreement_rad = std::numeric_limits<double>::quiet_NaN();  ///< between images and IMU
+  bool time_offset_compensated = false;  ///< whether the images' different times were taken into account
+  std::vector<FeatureReport> features;   ///< one for each feature
+  std::vector<StageTime> stage_times;    ///< in the order in which the stages ran
 };
 
 /// What the nodes and tools know of a visual odometry. Not thread-safe: one caller feeds it, frames in order

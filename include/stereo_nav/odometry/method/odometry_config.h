@@ -17,13 +17,18 @@ enum class Method { kStereo, kThesis };
 class OdometryConfig {
  public:
   OdometryConfig();
+  /// A copy of all sections.
   OdometryConfig(const OdometryConfig& other);
+  /// Takes over all sections.
   OdometryConfig& operator=(const OdometryConfig& other);
   ~OdometryConfig();
 
+  /// The composition that makeOdometry() makes.
   Method method() const;
+  /// The disparity map that this composition wants.
   DisparityUse disparityUse() const;
 
+  /// Names, ranges and meanings of the parameters.
   void describe(ParameterVisitor& visitor);
 
  private:
