@@ -17,8 +17,8 @@ class ParameterError : public std::runtime_error {
 /// Both ends are allowed values.
 template <class T>
 struct Range {
-  T min;
-  T max;
+  T min;  ///< smallest allowed value
+  T max;  ///< largest allowed value
 };
 
 /// What every parameter struct tells about each of its fields, once, in its `describe(ParameterVisitor&)`.

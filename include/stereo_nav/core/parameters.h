@@ -17,7 +17,7 @@ struct ParameterDoc {
   std::string default_value;  ///< the value in the struct when it was described
   std::string range;          ///< e.g. `1 to 255`
   std::string unit;           ///< empty for pure numbers
-  std::string doc;
+  std::string doc;            ///< its meaning
 };
 
 namespace internal {
