@@ -51,6 +51,12 @@ void Inbox::addImu(const ImuSample& sample) {
   if (!frames_.empty()) arrived_.notify_one();
 }
 
+/// When a frame is handed out even without the IMU samples it waits for.
+SteadyTime Inbox::deadline(const FrameMessages& frame) const {
+  const std::chrono::duration<double> patience(params_.imu_wait_s);
+  return frame.arrival + std::chrono::duration_cast<SteadyTime::duration>(patience);
+}
+
 std::optional<Inbox::Work> Inbox::take(SteadyTime now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   return takeLocked(now);
@@ -61,8 +67,7 @@ std::optional<Inbox::Work> Inbox::takeLocked(SteadyTime now) {
   const FrameMessages& next = frames_.front();
   const double needed_s = std::max(next.left_stamp, next.right_stamp).toSec();
   const bool covered = !params_.wait_for_imu || (imu_seen_ && imu_newest_s_ >= needed_s);
-  const std::chrono::duration<double> waited = now - next.arrival;
-  if (!covered && waited.count() < params_.imu_wait_s) return std::nullopt;
+  if (!covered && now < deadline(next)) return std::nullopt;
 
   Work work;
   work.frame = next;
@@ -82,12 +87,10 @@ std::optional<Inbox::Work> Inbox::waitAndTake() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stopped_) {
     if (auto work = takeLocked(std::chrono::steady_clock::now())) return work;
-    // Only a frame that waits for the IMU needs to be looked at again without news.
-    constexpr std::chrono::milliseconds kRecheck(5);
     if (frames_.empty()) {
       arrived_.wait(lock);
     } else {
-      arrived_.wait_for(lock, kRecheck);
+      arrived_.wait_until(lock, deadline(frames_.front()));
     }
   }
   return std::nullopt;

@@ -53,6 +53,7 @@ class Inbox {
 
  private:
   std::optional<Work> takeLocked(SteadyTime now);
+  SteadyTime deadline(const FrameMessages& frame) const;
 
   const InboxParams params_;
   mutable std::mutex mutex_;
