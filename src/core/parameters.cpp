@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -26,95 +27,47 @@ std::string join(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Keeps track of the section a visitor is in, so that messages and documentation give full names.
-class SectionedVisitor : public ParameterVisitor {
- public:
-  void enterSection(const std::string& name) override { sections_.push_back(name); }
-  void leaveSection() override { sections_.pop_back(); }
-
- protected:
-  std::string fullName(const std::string& name) const {
-    std::string full;
-    for (const auto& section : sections_) full += section + ".";
-    return full + name;
-  }
-
- private:
-  std::vector<std::string> sections_;
-};
-
-class RangeChecker : public SectionedVisitor {
+class RangeChecker : public ParameterVisitor {
  public:
   explicit RangeChecker(std::string source) : source_(std::move(source)) {}
 
-  void flag(const std::string&, bool&, const std::string&) override {}
-  void integer(const std::string& name, int& value, Range<int> range, const std::string& unit,
-               const std::string& doc) override {
-    check(name, value, range, unit, doc);
-  }
-  void real(const std::string& name, double& value, Range<double> range, const std::string& unit,
-            const std::string& doc) override {
-    check(name, value, range, unit, doc);
-  }
-  void text(const std::string&, std::string&, const std::string&) override {}
-  void choice(const std::string&, std::size_t&, const std::vector<std::string>&,
-              const std::string&) override {}
-
  private:
+  void visit(const ParameterField&, bool&) override {}
+  void visit(const ParameterField& field, int& value, Range<int> range) override {
+    check(field, value, range);
+  }
+  void visit(const ParameterField& field, double& value, Range<double> range) override {
+    check(field, value, range);
+  }
+  void visit(const ParameterField&, std::string&) override {}
+  void visit(const ParameterField&, std::size_t&, const std::vector<std::string>&) override {}
+
   template <class T>
-  void check(const std::string& name, T value, Range<T> range, const std::string& unit,
-             const std::string& doc) {
+  void check(const ParameterField& field, T value, Range<T> range) const {
     if (value >= range.min && value <= range.max) return;  // false for NaN, too
-    throw ParameterError(source_ + ": " + fullName(name) + " is " + toText(value) + ", allowed is " +
-                         toText(range) + (unit.empty() ? "" : " " + unit) + " (" + doc + ")");
+    throw ParameterError(source_ + ": " + fullName(field.name) + " is " + toText(value) + ", allowed is " +
+                         toText(range) + (field.unit.empty() ? "" : " " + field.unit) + " (" + field.doc +
+                         ")");
   }
 
   std::string source_;
 };
 
-class YamlReader : public SectionedVisitor {
+class YamlReader : public ParameterVisitor {
  public:
   YamlReader(const YAML::Node& node, std::string source) : source_(std::move(source)) { push(node, ""); }
-
-  void flag(const std::string& name, bool& value, const std::string&) override {
-    assign(name, value, "true or false");
-  }
-  void integer(const std::string& name, int& value, Range<int>, const std::string&,
-               const std::string&) override {
-    assign(name, value, "a whole number");
-  }
-  void real(const std::string& name, double& value, Range<double>, const std::string&,
-            const std::string&) override {
-    assign(name, value, "a number");
-  }
-  void text(const std::string& name, std::string& value, const std::string&) override {
-    assign(name, value, "a text");
-  }
-  void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
-              const std::string&) override {
-    std::string chosen = names[index];
-    assign(name, chosen, "one of: " + join(names));
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (names[i] == chosen) {
-        index = i;
-        return;
-      }
-    }
-    throw ParameterError(source_ + ": " + fullName(name) + " is '" + chosen +
-                         "', allowed is one of: " + join(names));
-  }
 
   void enterSection(const std::string& name) override {
     levels_.back().known.insert(name);
     const YAML::Node& parent = levels_.back().node;
     const YAML::Node child = parent.IsMap() ? parent[name] : YAML::Node();
-    SectionedVisitor::enterSection(name);
+    ParameterVisitor::enterSection(name);
     push(child.IsDefined() ? child : YAML::Node(), fullName(""));
   }
   void leaveSection() override {
     refuseUnknownKeys();
     levels_.pop_back();
-    SectionedVisitor::leaveSection();
+    ParameterVisitor::leaveSection();
   }
 
   void refuseUnknownKeys() const {
@@ -130,6 +83,32 @@ class YamlReader : public SectionedVisitor {
   }
 
  private:
+  void visit(const ParameterField& field, bool& value) override {
+    assign(field.name, value, "true or false");
+  }
+  void visit(const ParameterField& field, int& value, Range<int>) override {
+    assign(field.name, value, "a whole number");
+  }
+  void visit(const ParameterField& field, double& value, Range<double>) override {
+    assign(field.name, value, "a number");
+  }
+  void visit(const ParameterField& field, std::string& value) override {
+    assign(field.name, value, "a text");
+  }
+  void visit(const ParameterField& field, std::size_t& index,
+             const std::vector<std::string>& names) override {
+    std::string chosen = names[index];
+    assign(field.name, chosen, "one of: " + join(names));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i] == chosen) {
+        index = i;
+        return;
+      }
+    }
+    throw ParameterError(source_ + ": " + fullName(field.name) + " is '" + chosen +
+                         "', allowed is one of: " + join(names));
+  }
+
   struct Level {
     YAML::Node node;
     std::set<std::string> known;
@@ -162,28 +141,31 @@ class YamlReader : public SectionedVisitor {
   std::vector<Level> levels_;
 };
 
-class Documenter : public SectionedVisitor {
+class Documenter : public ParameterVisitor {
  public:
-  void flag(const std::string& name, bool& value, const std::string& doc) override {
-    docs.push_back({fullName(name), "bool", value ? "true" : "false", "", "", doc});
+  std::vector<ParameterDoc> docs;
+
+ private:
+  void visit(const ParameterField& field, bool& value) override {
+    add(field, "bool", value ? "true" : "false", "");
   }
-  void integer(const std::string& name, int& value, Range<int> range, const std::string& unit,
-               const std::string& doc) override {
-    docs.push_back({fullName(name), "int", toText(value), toText(range), unit, doc});
+  void visit(const ParameterField& field, int& value, Range<int> range) override {
+    add(field, "int", toText(value), toText(range));
   }
-  void real(const std::string& name, double& value, Range<double> range, const std::string& unit,
-            const std::string& doc) override {
-    docs.push_back({fullName(name), "double", toText(value), toText(range), unit, doc});
+  void visit(const ParameterField& field, double& value, Range<double> range) override {
+    add(field, "double", toText(value), toText(range));
   }
-  void text(const std::string& name, std::string& value, const std::string& doc) override {
-    docs.push_back({fullName(name), "string", value, "", "", doc});
-  }
-  void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
-              const std::string& doc) override {
-    docs.push_back({fullName(name), "choice", names[index], join(names), "", doc});
+  void visit(const ParameterField& field, std::string& value) override { add(field, "string", value, ""); }
+  void visit(const ParameterField& field, std::size_t& index,
+             const std::vector<std::string>& names) override {
+    add(field, "choice", names[index], join(names));
   }
 
-  std::vector<ParameterDoc> docs;
+  void add(const ParameterField& field, const std::string& type, const std::string& value,
+           const std::string& range) {
+    docs.push_back(
+        {fullName(field.name), type, value, range, field.unit, field.doc, field.change == Change::kLive});
+  }
 };
 
 }  // namespace
@@ -210,20 +192,30 @@ std::vector<ParameterDoc> document(const Describe& describe) {
 
 }  // namespace internal
 
-YAML::Node loadYamlFile(const std::string& path) {
+std::string readTextFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file && !text.bad()) return text.str();
+  // roslaunch starts nodes in ROS_HOME, not in the folder that it was called from.
+  const std::string where =
+      std::filesystem::path(path).is_relative()
+          ? " in " + std::filesystem::current_path().string() + " (launch files want absolute paths)"
+          : "";
+  throw ParameterError(path + ": cannot be read" + where +
+                       "; does the file exist, and may this user read it?");
+}
+
+YAML::Node parseYaml(const std::string& text, const std::string& source) {
   try {
-    return YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    // roslaunch starts nodes in ROS_HOME, not in the folder that it was called from.
-    const std::string where =
-        std::filesystem::path(path).is_relative()
-            ? " in " + std::filesystem::current_path().string() + " (launch files want absolute paths)"
-            : "";
-    throw ParameterError(path + ": cannot be read" + where +
-                         "; does the file exist, and may this user read it?");
+    return YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw ParameterError(path + ": not valid YAML: " + error.what());
+    throw ParameterError(source + ": not valid YAML: " + error.what());
   }
+}
+
+YAML::Node loadYamlFile(const std::string& path) {
+  return parseYaml(readTextFile(path), path);
 }
 
 }  // namespace stereo_nav

@@ -29,13 +29,13 @@ Matrix6d diagonal(double translation_sigma, double rotation_sigma) {
 
 void UncertaintyParams::describe(ParameterVisitor& visitor) {
   visitor.real("min_translation_sigma_m", min_translation_sigma_m, {1e-6, 1.0}, "m",
-               "least standard deviation of one frame's translation, each axis");
+               "least standard deviation of one frame's translation, each axis", Change::kLive);
   visitor.real("min_rotation_sigma_rad", min_rotation_sigma_rad, {1e-6, 1.0}, "rad",
-               "least standard deviation of one frame's rotation, each axis");
+               "least standard deviation of one frame's rotation, each axis", Change::kLive);
   visitor.real("lost_speed_m_s", lost_speed_m_s, {0.01, 100.0}, "m/s",
-               "standard deviation of the velocity while no motion is measured");
+               "standard deviation of the velocity while no motion is measured", Change::kLive);
   visitor.real("lost_turn_rate_rad_s", lost_turn_rate_rad_s, {0.01, 100.0}, "rad/s",
-               "standard deviation of the turn rate while no motion is measured");
+               "standard deviation of the turn rate while no motion is measured", Change::kLive);
 }
 
 Vector6d logarithm(const Eigen::Isometry3d& motion) {

@@ -11,8 +11,8 @@
 
 namespace stereo_nav::ros_io {
 
-/// A bag that appears under its name only when it is complete. Throws InputError or InputError,
-/// each of which names the file, when it cannot be written; nothing is left behind then.
+/// A bag that appears under its name only when it is complete. Throws InputError
+/// that names the file when it cannot be written; no partial file is left behind.
 class BagFile {
  public:
   explicit BagFile(const std::string& path);

@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
+#include "core/rig_file.h"
 #include "ros/parameter_server.h"
-#include "ros/rig.h"
 
 namespace stereo_nav::ros_io {
 namespace {
@@ -32,7 +32,7 @@ std::string resolve(const std::string& topic) {
 ros_io::DisparityParams readDisparityParams(const ros::NodeHandle& private_handle) {
   ros_io::DisparityParams params;
   ros_io::readParameters({ros_io::fileSource(private_handle, "disparity_config"),
-                          ros_io::rigSource(private_handle, ros_io::rig_sections::kDisparity)},
+                          ros_io::rigSource(private_handle, rig_sections::kDisparity)},
                          params);
   return params;
 }

@@ -1,6 +1,6 @@
 #include "ros/parameter_server.h"
 
-#include "ros/rig.h"
+#include "core/rig_file.h"
 
 namespace stereo_nav::ros_io {
 namespace {
@@ -10,24 +10,19 @@ class ServerWriter : public ParameterVisitor {
  public:
   explicit ServerWriter(const ros::NodeHandle& handle) : handles_{handle} {}
 
-  void flag(const std::string& name, bool& value, const std::string&) override { set(name, value); }
-  void integer(const std::string& name, int& value, Range<int>, const std::string&,
-               const std::string&) override {
-    set(name, value);
-  }
-  void real(const std::string& name, double& value, Range<double>, const std::string&,
-            const std::string&) override {
-    set(name, value);
-  }
-  void text(const std::string& name, std::string& value, const std::string&) override { set(name, value); }
-  void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
-              const std::string&) override {
-    set(name, names[index]);
-  }
   void enterSection(const std::string& name) override { handles_.emplace_back(handles_.back(), name); }
   void leaveSection() override { handles_.pop_back(); }
 
  private:
+  void visit(const ParameterField& field, bool& value) override { set(field.name, value); }
+  void visit(const ParameterField& field, int& value, Range<int>) override { set(field.name, value); }
+  void visit(const ParameterField& field, double& value, Range<double>) override { set(field.name, value); }
+  void visit(const ParameterField& field, std::string& value) override { set(field.name, value); }
+  void visit(const ParameterField& field, std::size_t& index,
+             const std::vector<std::string>& names) override {
+    set(field.name, names[index]);
+  }
+
   template <class T>
   void set(const std::string& name, const T& value) {
     handles_.back().setParam(name, value);
@@ -100,7 +95,8 @@ ParameterSource fileSource(const ros::NodeHandle& private_handle, const std::str
 ParameterSource rigSource(const ros::NodeHandle& private_handle, const std::string& section) {
   const std::string path = pathIn(private_handle, kRigPath);
   if (path.empty()) return {};
-  return {loadRigSection(path, section), rigSectionName(path, section)};
+  const RigFile rig = RigFile::load(path);
+  return {rig.section(section), rig.sectionName(section)};
 }
 
 ParameterSource serverSource(const ros::NodeHandle& handle, const std::set<std::string>& except) {

@@ -72,25 +72,13 @@ void RigParams::describe(ParameterVisitor& visitor) {
                   "pixels of the calibration are divided into this many in each direction");
   visitor.integer("samples_per_pixel", samples_per_pixel, {1, 16}, "",
                   "rays per pixel, spread over its area and the exposure");
-  visitor.real("camera_x_m", camera_x_m, {-5.0, 5.0}, "m", "left camera, forward of base_link");
-  visitor.real("camera_y_m", camera_y_m, {-5.0, 5.0}, "m", "left camera, left of base_link");
-  visitor.real("camera_z_m", camera_z_m, {0.01, 5.0}, "m", "left camera, above the floor");
-  visitor.real("camera_roll_deg", camera_roll_deg, {-360.0, 360.0}, "deg",
+  visitor.real("camera_x_m", camera.x_m, {-5.0, 5.0}, "m", "left camera, forward of base_link");
+  visitor.real("camera_y_m", camera.y_m, {-5.0, 5.0}, "m", "left camera, left of base_link");
+  visitor.real("camera_z_m", camera.z_m, {0.01, 5.0}, "m", "left camera, above the floor");
+  visitor.real("camera_roll_deg", camera.roll_deg, {-360.0, 360.0}, "deg",
                "cameras lean to the right by this");
-  visitor.real("camera_pitch_deg", camera_pitch_deg, {-360.0, 360.0}, "deg", "cameras look down by this");
-  visitor.real("camera_yaw_deg", camera_yaw_deg, {-360.0, 360.0}, "deg", "cameras look to the left by this");
-}
-
-Eigen::Isometry3d RigParams::T_base_camera() const {
-  Eigen::Matrix3d R_forward_optical;  // x right, y down, z forward
-  R_forward_optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.translation() << camera_x_m, camera_y_m, camera_z_m;
-  const double rad = M_PI / 180.0;
-  T.linear() = Eigen::AngleAxisd(camera_yaw_deg * rad, Eigen::Vector3d::UnitZ()) *
-               Eigen::AngleAxisd(camera_pitch_deg * rad, Eigen::Vector3d::UnitY()) *
-               Eigen::AngleAxisd(camera_roll_deg * rad, Eigen::Vector3d::UnitX()) * R_forward_optical;
-  return T;
+  visitor.real("camera_pitch_deg", camera.pitch_deg, {-360.0, 360.0}, "deg", "cameras look down by this");
+  visitor.real("camera_yaw_deg", camera.yaw_deg, {-360.0, 360.0}, "deg", "cameras look to the left by this");
 }
 
 void Scenario::describe(ParameterVisitor& visitor) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/rig_file.h"
 #include "sim/camera_clocks.h"
 #include "sim/image_sensor.h"
 #include "sim/imu_model.h"
@@ -22,21 +23,15 @@ struct Event {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Where the cameras sit on the robot. They look along base_link's x axis but for the angles, which turn
-/// about its fixed axes, roll first, then pitch, then yaw.
+/// Where the cameras sit on the robot, and how finely they are rendered.
 struct RigParams {
   int image_scale = 1;
   int samples_per_pixel = 4;
-  double camera_x_m = 0.10;
-  double camera_y_m = 0.0613;
-  double camera_z_m = 0.283;
-  double camera_roll_deg = 0.0;
-  double camera_pitch_deg = 0.0;
-  double camera_yaw_deg = 0.0;
+  SensorMounting camera{0.10, 0.0613, 0.283, 0.0, 0.0, 0.0};  ///< the left one
 
   void describe(ParameterVisitor& visitor);
   /// Of the rectified left optical frame.
-  Eigen::Isometry3d T_base_camera() const;
+  Eigen::Isometry3d T_base_camera() const { return camera.T_base_optical(); }
 };
 
 /// Everything about a simulated drive except its seed.

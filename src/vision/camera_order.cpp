@@ -9,8 +9,8 @@
 namespace stereo_nav::vision {
 namespace {
 
-constexpr int kReducedWidth = 320;  // px: keeps enough texture and makes the search cheap
-constexpr int kPatchRadius = 5;     // px of the reduced image, as all lengths below
+constexpr int kReducedWidth = 320;  // px: enough texture is left, and the search stays cheap
+constexpr int kPatchRadius = 5;     // px of the reduced image, as all below
 constexpr int kSearchRows = 4;
 constexpr int kMinDisparity = 2;
 constexpr int kCorners = 40;

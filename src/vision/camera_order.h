@@ -7,12 +7,11 @@
 
 namespace stereo_nav::vision {
 
-/// Notices that the left and right images were swapped, by their cables or device indices. A rectified pair
-/// in the right order has no negative disparities. The disparity map does not show a swap, since it searches
-/// positive disparities only and then finds chance matches. Therefore a few distinct corners of the left
-/// image are searched now and then on both sides of their place in the right image, at reduced size and a few
-/// rows up and down, since a swapped pair is rectified with the wrong lenses. The signs of their disparities
-/// are counted. The rig need not move.
+/// Notices that the left and right images were swapped (cables, device indices). A rectified pair in the
+/// right order has no negative disparity; the disparity map cannot tell, since it searches positive ones only
+/// and then finds chance matches. So now and then a few distinct corners of the left image are looked for on
+/// both sides of their row in the right image, at reduced size, a few rows up and down (a swapped pair is
+/// rectified with the wrong lenses), and the signs are counted. Motion is not needed.
 class CameraOrderCheck {
  public:
   enum class Verdict { kUnknown, kInOrder, kSwapped };
@@ -23,8 +22,8 @@ class CameraOrderCheck {
   void observe(const cv::Mat& left, const cv::Mat& right);
   void reset() { votes_.clear(); }
 
-  /// From the last few observations. It is unknown until enough corners were found again, which takes texture
-  /// nearer than about 100 baselines.
+  /// From the last few observations; unknown until enough corners were found again (texture, depth below
+  /// about 100 baselines).
   Verdict verdict() const;
 
  private:

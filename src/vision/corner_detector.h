@@ -16,14 +16,13 @@ struct CornerDetectorParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Detects evenly spread FAST corners: the image is cut into rows x columns buckets, and the strongest
-/// corners of each are kept (thesis, step 1; FAST 9-16 with non-maximum suppression: Rosten and Drummond
-/// 2006).
+/// FAST corners, evenly spread: the image is cut into rows x columns buckets and the strongest of each are
+/// kept (thesis, step 1; FAST 9-16 with non-maximum suppression: Rosten and Drummond 2006).
 class CornerDetector {
  public:
   explicit CornerDetector(const CornerDetectorParams& params);
 
-  /// `image` is CV_8UC1. Positions are in px, bucket by bucket in row order, the strongest of each first.
+  /// `image` is CV_8UC1. Positions in px, bucket by bucket in row order, strongest first within a bucket.
   std::vector<cv::Point2f> detect(const cv::Mat& image) const;
 
  private:

@@ -8,7 +8,7 @@ namespace stereo_nav::vision {
 
 void DisparityLifterParams::describe(ParameterVisitor& visitor) {
   visitor.real("min_disparity_px", min_disparity_px, {0.0, 1000.0}, "px",
-               "points with a smaller disparity are too far to be measured and have no depth");
+               "smaller disparities are too far to be measured and count as none");
 }
 
 DisparityLifter::DisparityLifter(const DisparityLifterParams& params, const StereoCalibration& calibration)

@@ -25,9 +25,9 @@ class DisparityLifter {
     double disparity_px;
   };
 
-  /// The map is read at the nearest pixel. Nothing is returned outside the map and where the map has no
-  /// disparity, which it marks by a negative value, zero or NaN. (The thesis lifted these marks unchecked and
-  /// got points at -56 m.)
+  /// The map's value at the nearest pixel; nothing outside the map and where the map has no disparity. The
+  /// marker of "no disparity" (negative, zero or NaN; the thesis lifted it unchecked and got a block at -56
+  /// m) is never lifted.
   std::optional<Lifted> lift(const cv::Mat& disparity, const cv::Point2f& pixel) const;
 
  private:

@@ -14,10 +14,11 @@ constexpr double kMatchSigma_px = kPixelSigma_px;
 }  // namespace
 
 void EpipolarErrorParams::describe(ParameterVisitor& visitor) {
-  visitor.real("prior_sigma_px", prior_sigma_px, {1e-3, 50.0}, "px",
-               "expected row error between the two rectified images; small values keep to the calibration");
+  visitor.real(
+      "prior_sigma_px", prior_sigma_px, {1e-3, 50.0}, "px",
+      "how far off the rows of the two rectified images may be; small values hold to the calibration");
   visitor.real("memory", memory, {10.0, 1e6}, "matches",
-               "largest number of matches that the estimate rests on");
+               "number of matches that the estimate rests on at most");
 }
 
 EpipolarError::EpipolarError(const EpipolarErrorParams& params, const StereoCalibration& calibration)
@@ -52,7 +53,7 @@ double EpipolarError::slack_px() const {
 
 void EpipolarError::add(const Eigen::Vector2d& right_px, double error_px) {
   const Eigen::Vector3d along = basis(right_px);
-  // As long as little is known, a large error is no outlier.
+  // Where little is known yet, a large error is no outlier.
   const double scale_px = kMatchSigma_px + slack_px();
   const double off = (error_px - along.dot(coefficients_px_)) / scale_px;
   const double weight = 1.0 / (1.0 + off * off);

@@ -14,26 +14,26 @@ struct EpipolarErrorParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// The displacement of the right image against a perfect rectification. A camera that has pitched moves all
-/// rows, one that has rolled tilts them, and one of another focal length spreads them. These three are
-/// learned from the rows of the matches, by robust recursive least squares with a fading memory. The
-/// displacement of the columns that goes with them is corrected, too: half a pixel of row error at the edge
-/// of the image comes with as much error of the disparity at its lower edge. Webcams in a home-made mount are
-/// off by a pixel or two some time after their calibration, the public recordings by a few tenths. Errors
-/// that leave the rows unchanged, such as a yawed camera or a wrong baseline, cannot be learned.
+/// Where the right image shows things, against where a perfect rectification would: a camera that nods moves
+/// all rows, one that rolls tilts them, one of another focal length spreads them. The three are learned from
+/// the rows of the matches themselves, by robust recursive least squares with a fading memory, and the
+/// columns that go with them are corrected too: half a pixel of row error at the edge of the image comes with
+/// as much error of disparity at its foot. Webcams in a home-made mount are a pixel or two off some time
+/// after their calibration; the public recordings are a few tenths. What leaves the rows alone (a camera that
+/// turns sideways, a wrong baseline) cannot be seen.
 class EpipolarError {
  public:
   EpipolarError(const EpipolarErrorParams& params, const StereoCalibration& calibration);
 
-  /// The displacement at a right pixel, px, to be subtracted from it.
+  /// px, to be subtracted from a right pixel.
   Eigen::Vector2d at(const Eigen::Vector2d& right_px) const;
 
-  /// Uncertainty of the rows of at() in the middle of the image, 3 sigma, px.
+  /// px, how far off at() may still be, 3 sigma of the rows in the middle of the image.
   double slack_px() const;
 
-  /// Adds a match whose right row is `error_px` too low in the image, before the correction by at().
+  /// One match whose right row is `error_px` too low, what at() says included.
   void add(const Eigen::Vector2d& right_px, double error_px);
-  /// Updates at() by the matches that were added.
+  /// Draws the conclusion from the matches added.
   void learn();
   void reset();
 
@@ -42,7 +42,7 @@ class EpipolarError {
 
   EpipolarErrorParams params_;
   StereoCalibration calibration_;
-  Eigen::Vector3d coefficients_px_;  ///< of the row error over (1, x/z, y/z): pitch, roll, focal length
+  Eigen::Vector3d coefficients_px_;  ///< row error for (1, x/z, y/z): nod, roll, focal length
   Eigen::Matrix3d prior_;
   Eigen::Matrix3d information_;  ///< in matches
   Eigen::Vector3d moments_;

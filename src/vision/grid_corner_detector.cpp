@@ -8,11 +8,11 @@ namespace stereo_nav::vision {
 namespace {
 
 constexpr int kFastRadius_px = 3;
-constexpr int kEdge_px = 8;  ///< corners nearer to the edge would have half a patch only
-constexpr int kPerCell = 3;  ///< candidates kept per cell, some of which stand in for cells without corners
-constexpr int kPlentyPerCell = 12;  ///< with more corners than this the threshold of a cell rises
+constexpr int kEdge_px = 8;         ///< corners nearer to the edge have half a patch only
+constexpr int kPerCell = 3;         ///< candidates kept per cell, for the cells that fill in for empty ones
+constexpr int kPlentyPerCell = 12;  ///< more than this: the threshold may rise
 
-/// Tells which pixels are too near to a corner that was already taken, by a grid with cells of that distance.
+/// Which pixels are too near to a corner already taken: a bucket grid of the distance's size.
 class Neighbourhood {
  public:
   Neighbourhood(const cv::Size& size, double distance_px)
@@ -54,13 +54,12 @@ class Neighbourhood {
 }  // namespace
 
 void GridCornerDetectorParams::describe(ParameterVisitor& visitor) {
-  visitor.integer("features", features, {10, 5000}, "", "number of features that are followed at a time");
-  visitor.integer("cells", cells, {1, 5000}, "",
-                  "approximate number of square cells that the image is cut into");
+  visitor.integer("features", features, {10, 5000}, "", "live tracks wanted");
+  visitor.integer("cells", cells, {1, 5000}, "", "square cells that the image is cut into, about");
   visitor.integer("initial_threshold", initial_threshold, {1, 255}, "grey levels",
                   "FAST threshold of every cell at the start");
   visitor.integer("min_threshold", min_threshold, {1, 255}, "grey levels",
-                  "lowest FAST threshold, for cells without corners");
+                  "FAST threshold that an empty cell goes down to");
   visitor.real("min_distance_px", min_distance_px, {1.0, 1000.0}, "px", "least distance between two corners");
 }
 
@@ -85,7 +84,7 @@ cv::Rect GridCornerDetector::cellRect(int cell) const {
   const int top = row * image_size_.height / rows_;
   const int right = (column + 1) * image_size_.width / columns_;
   const int bottom = (row + 1) * image_size_.height / rows_;
-  // FAST leaves out a rim of its radius, so that cells overlap by it and no corner between them is missed.
+  // FAST leaves out a rim of its radius; cells overlap by it so that no corner is lost between them.
   const cv::Rect wide(left - kFastRadius_px, top - kFastRadius_px, right - left + 2 * kFastRadius_px,
                       bottom - top + 2 * kFastRadius_px);
   return wide & cv::Rect(kEdge_px - kFastRadius_px, kEdge_px - kFastRadius_px,
@@ -130,7 +129,7 @@ std::vector<cv::Point2f> GridCornerDetector::detect(const cv::Mat& image,
     ++population[static_cast<std::size_t>(row * columns_ + column)];
     taken.add(px);
   }
-  // Empty cells come first; the fuller ones are searched only if these do not suffice.
+  // Empty cells first; the fuller ones are looked at only when those do not suffice.
   std::vector<Candidate> candidates;
   for (int rank = 0; rank < kPerCell && wanted > 0; ++rank) {
     for (std::size_t cell = 0; cell < population.size(); ++cell) {

@@ -17,15 +17,14 @@ struct GridCornerDetectorParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Detects FAST corners where tracks are missing. The image is cut into square cells, each with a threshold
-/// of its own that follows the texture in the cell from image to image.
+/// FAST corners where live tracks are missing: the image is cut into square cells, each with a threshold of
+/// its own that follows the texture it sees from image to image.
 class GridCornerDetector {
  public:
   GridCornerDetector(const GridCornerDetectorParams& params, const cv::Size& image_size);
 
-  /// New corners of `image` (CV_8UC1), at most `params.features` minus the number of `occupied` pixels. Every
-  /// empty cell gets one first, in the order of their strength. No corner is nearer than `min_distance_px` to
-  /// another one or to an `occupied` pixel.
+  /// New corners of `image` (CV_8UC1), at most `params.features` minus those `occupied`, first one for every
+  /// empty cell, the strongest cells first; none nearer than `min_distance_px` to another or to `occupied`.
   std::vector<cv::Point2f> detect(const cv::Mat& image, const std::vector<cv::Point2f>& occupied);
 
   void reset();

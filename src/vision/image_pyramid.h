@@ -5,12 +5,11 @@
 
 namespace stereo_nav::vision {
 
-/// An image and its repeated reductions to half the size, built once per image and shared by all uses. A
-/// pixel (x, y) of level 0 lies at (x, y) / 2^l of level l. Levels are smoothed by the 5x5 Gaussian of Burt
-/// and Adelson (1983), as cv::pyrDown does.
+/// An image and its halvings, built once per image and shared by all uses. A pixel (x, y) of level 0 lies at
+/// (x, y) / 2^l of level l (5x5 Gaussian, Burt and Adelson 1983, as cv::pyrDown).
 class ImagePyramid {
  public:
-  /// Width of the mirrored border around every level, which patches may reach into.
+  /// Mirrored px that can be read around every level, for patches that hang over the edge.
   static constexpr int kBorder_px = 32;
 
   ImagePyramid() = default;

@@ -9,7 +9,7 @@ std::optional<cv::Point2f> coarseShift(const ImagePyramid& from, const ImagePyra
   constexpr double kLeastLikeness = 0.5;
   const int level = std::min(from.levels(), to.levels()) - 1;
   const cv::Mat& before = from.level(level);
-  // The middle half of the width and height may be found anywhere in the other image.
+  // The middle half of either side may be found anywhere in the other image.
   const cv::Rect middle(before.cols / 4, before.rows / 4, before.cols / 2, before.rows / 2);
   cv::Mat likeness;
   cv::matchTemplate(to.level(level), before(middle), likeness, cv::TM_CCOEFF_NORMED);

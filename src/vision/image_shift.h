@@ -7,9 +7,9 @@
 
 namespace stereo_nav::vision {
 
-/// How far the picture as a whole has moved, in px of level 0: where the middle of `from` has the best
-/// normalised correlation with `to`, on the coarsest level. It finds the features after turns that nothing
-/// predicted. Nothing is returned if the two images look too little alike.
+/// How far the picture as a whole has moved, px of level 0: the place of the middle of `from` in `to` with
+/// the best normalised correlation, on the coarsest level. For turns that nothing predicted; nothing if the
+/// two look too little alike.
 std::optional<cv::Point2f> coarseShift(const ImagePyramid& from, const ImagePyramid& to);
 
 }  // namespace stereo_nav::vision

@@ -7,12 +7,11 @@
 namespace stereo_nav::vision {
 
 void KltParams::describe(ParameterVisitor& visitor) {
-  visitor.integer("window", window, {3, 101}, "px", "side of the patches");
+  visitor.integer("window", window, {3, 101}, "px", "side of the patch that is followed");
   visitor.integer("levels", levels, {0, 8}, "", "pyramid levels above the image itself");
   visitor.integer("iterations", iterations, {1, 100}, "", "most iterations per level");
   visitor.real("epsilon_px", epsilon_px, {1e-4, 1.0}, "px", "an iteration that moves less ends the level");
-  visitor.real("min_eigenvalue", min_eigenvalue, {0.0, 1.0}, "",
-               "smallest eigenvalue of the gradient moments; patches with less texture are not tracked");
+  visitor.real("min_eigenvalue", min_eigenvalue, {0.0, 1.0}, "", "patches with less texture are given up");
 }
 
 KltTracker::KltTracker(const KltParams& params) : params_(params) {

@@ -17,7 +17,7 @@ struct KltParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Tracks corners by pyramidal Lucas-Kanade (Bouguet 2000) on whole images (thesis, step 3).
+/// Pyramidal Lucas-Kanade (Bouguet 2000) on whole images (thesis, step 3).
 class KltTracker {
  public:
   explicit KltTracker(const KltParams& params);

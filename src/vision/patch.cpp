@@ -11,14 +11,14 @@
 namespace stereo_nav::vision {
 namespace {
 
-constexpr float kNoWarp = 0.02F;  ///< a smaller warp moves the rim of a patch by a fraction of a pixel
+constexpr float kNoWarp = 0.02F;  ///< less than this changes a patch by a fraction of a pixel at its rim
 constexpr float kLeastGain = 0.25F;
 constexpr float kMostGain = 4.0F;
 
-/// Patches may reach over the edge of the image into the border of its pyramid, but not by half their width.
+/// Patches may hang over the edge of the image into the border of its pyramid, but not by half.
 bool inside(const cv::Mat& image, const cv::Point2f& centre) {
   constexpr float kMargin_px = 2.0F;
-  // Written so that NaN counts as outside.
+  // Written so that NaN is outside.
   return centre.x >= kMargin_px && centre.y >= kMargin_px &&
          centre.x <= static_cast<float>(image.cols - 1) - kMargin_px &&
          centre.y <= static_cast<float>(image.rows - 1) - kMargin_px;
@@ -34,7 +34,7 @@ void removeMean(std::int16_t* grid, const std::int16_t* mask, int window, int st
   const int sum = cv::v_reduce_sum(sums);
   const int count = window * window;
   const int mean = sum >= 0 ? sum / count : -((count - 1 - sum) / count);
-  int remainder = sum - mean * count;  // the first `remainder` values become smaller by one more
+  int remainder = sum - mean * count;  // so many values, the first ones, become smaller by one more
   const cv::v_int16x8 means = cv::v_setall_s16(static_cast<short>(mean));
   for (int r = 0; r < window; ++r, remainder = std::max(0, remainder - window)) {
     for (int c = 0; c < stride; c += 8) {
@@ -80,7 +80,7 @@ std::optional<Patch> Patch::cut(const cv::Mat& image, const cv::Point2f& centre,
   const cv::Point2f corner = centre - cv::Point2f(offset, offset);
   alignas(16) std::array<std::int16_t, (kMaxStride + 8) * (kMaxWindow + 2)> wide;
   const int wide_stride = stride + 8;
-  // The gradients need one more pixel on every side.
+  // One more pixel on every side for the gradients.
   if (step.isIdentity(kNoWarp)) {
     sample(image, corner - cv::Point2f(1.0F, 1.0F), window + 2, wide_stride, wide.data());
   } else {

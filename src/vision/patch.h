@@ -8,29 +8,29 @@
 
 namespace stereo_nav::vision {
 
-/// A square piece of an image that can be found in another one, independent of the gain and brightness of the
-/// two. The method is inverse compositional Lucas-Kanade (Baker and Matthews 2004); every step also solves
-/// for the gain, and templates of zero mean remove the brightness. Images are levels of an ImagePyramid, so
-/// that patches may reach into its border.
+/// A square piece of an image that can be found again in another one, whatever the gain and offset between
+/// the two: inverse compositional Lucas-Kanade (Baker and Matthews 2004) with the gain solved for in every
+/// step and the offset taken out by templates of zero mean. Images are levels of an ImagePyramid: patches may
+/// reach into its border.
 class Patch {
  public:
   static constexpr int kMaxWindow = 21;
 
-  /// Takes the `window` x `window` px around `centre`; `window` is odd. Nothing is returned if the centre is
-  /// outside the image or the patch has too little texture: the smaller eigenvalue of its gradient moments,
-  /// per px, must be at least `min_texture` (grey levels per px, squared). `step` is the step in the image
-  /// per px of the patch, which takes the shape that it is expected to have in the other image.
+  /// The `window` x `window` px around `centre`; `window` is odd. Nothing if the centre
+  /// leaves the image or the patch has too little texture: the smaller eigenvalue of its gradient moments,
+  /// per px, must be at least `min_texture` (grey levels per px, squared). `step` is the way in the image per
+  /// px of the patch: the patch as it is expected in the other image.
   static std::optional<Patch> cut(const cv::Mat& image, const cv::Point2f& centre, int window,
                                   double min_texture,
                                   const Eigen::Matrix2f& step = Eigen::Matrix2f::Identity());
 
   struct Match {
     cv::Point2f px;
-    float correlation;  ///< zero-mean normalised, -1 to 1, where the last step began
+    float correlation;  ///< zero-mean normalised, -1 to 1, at the last position but one
     bool converged;     ///< the last step was shorter than `min_step_px`
   };
-  /// Steps from `guess` to where `image` looks like the patch. Nothing is returned if the steps leave the
-  /// image or end further than the window from the guess, or if the best gain is not within 1/4 to 4.
+  /// Steps from `guess` to where `image` looks like the patch. Nothing if it leaves the image, if the best
+  /// gain is outside 1/4 to 4, or if it wanders further than the window from the guess.
   std::optional<Match> align(const cv::Mat& image, const cv::Point2f& guess, int iterations,
                              double min_step_px) const;
 

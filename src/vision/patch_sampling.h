@@ -4,14 +4,12 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-/// Windows of a pyramid level as integers, for vector instructions. They may reach into the border of the
-/// level.
+/// Windows of a pyramid's level in integers, which fit vector instructions; they may reach into its border.
 namespace stereo_nav::vision {
 
-constexpr int kFractionBits =
-    3;  ///< intensities are in eighths, so that sums of 21 x 21 products stay below 2^31
+constexpr int kFractionBits = 3;  ///< intensities in eighths: sums of 21 x 21 products stay below 2^31
 
-/// Bilinear samples of rows x stride px, the first of which is at `corner`, in eighths of a grey level.
+/// Bilinear samples of the rows x stride px whose first is at `corner`, in eighths of a grey level.
 void sample(const cv::Mat& image, const cv::Point2f& corner, int rows, int stride, std::int16_t* out);
 
 /// Whether a patch of axes `step` around `centre` lies in the image and its border.

@@ -5,7 +5,7 @@
 namespace stereo_nav::vision {
 namespace {
 
-constexpr double kCoarseTexture = 0.25;  ///< just enough to keep the equations solvable
+constexpr double kCoarseTexture = 0.25;  ///< only to keep the equations solvable
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::optional<Patch::Match> PatchTracker::track(const ImagePyramid& from, const 
   const int top = std::min({top_level, from.levels() - 1, to.levels() - 1});
   for (int l = top; l >= finest_level; --l) {
     const float scale = 1.0F / static_cast<float>(1 << l);
-    // Coarse levels of a weakly textured patch may still help, so that only the finest one demands texture.
+    // The coarse levels of a weakly textured patch may still help: only the finest one asks for texture.
     const auto patch =
         Patch::cut(from.level(l), px * scale, l == 0 ? params_.window_px : params_.coarse_window_px,
                    l == finest_level ? params_.min_texture : kCoarseTexture, step);

@@ -19,15 +19,15 @@ struct PatchTrackerParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Finds the surroundings of a pixel in another image, from coarse to fine levels of the pyramids.
+/// Finds the surroundings of a pixel again in another image, from coarse to fine.
 class PatchTracker {
  public:
   explicit PatchTracker(const PatchTrackerParams& params) : params_(params) {}
 
   /// `guess` is where `px` of `from` is expected in `to`; `top_level` is the coarsest level of the search.
-  /// The columns of `step` are the steps in `from`, in px, that correspond to one px along each axis of `to`.
-  /// Coarse levels only move the guess, and the match is made on `finest_level`, which is 0, or more for
-  /// images in which fine detail is blurred. Nothing is returned without enough texture or likeness.
+  /// `step` is how many px of `from` a px of `to` is expected to span, as an axis each. Coarse levels only
+  /// move the guess; `finest_level` decides: 0, or more for images in which the fine detail is blurred.
+  /// Nothing without enough texture or likeness.
   std::optional<Patch::Match> track(const ImagePyramid& from, const cv::Point2f& px, const ImagePyramid& to,
                                     const cv::Point2f& guess, int top_level,
                                     const Eigen::Matrix2f& step = Eigen::Matrix2f::Identity(),

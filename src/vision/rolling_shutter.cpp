@@ -6,12 +6,12 @@
 namespace stereo_nav::vision {
 namespace {
 
-/// Displacement of the homogeneous point (p, w) that moves with the twist for `time_s`. Rows are milliseconds
-/// apart, so that the second order is accurate enough.
+/// Displacement of the homogeneous point (x, y, z, w) that moves with the twist for `time_s`, to second
+/// order: rows are milliseconds apart.
 Eigen::Vector3d displacement(const Vector6d& twist, double time_s, const Eigen::Vector3d& p, double w) {
   const Eigen::Vector3d turn = time_s * twist.tail<3>();
-  const Eigen::Vector3d first_order = w * time_s * twist.head<3>() + turn.cross(p);
-  return first_order + 0.5 * turn.cross(first_order);
+  const Eigen::Vector3d straight = w * time_s * twist.head<3>() + turn.cross(p);
+  return straight + 0.5 * turn.cross(straight);
 }
 
 }  // namespace
@@ -39,16 +39,16 @@ StereoObservation RollingShutter::atStamp(const StereoObservation& seen, const E
                                           const Eigen::Isometry3d& T_late_camera,
                                           const Vector6d& twist) const {
   if (isGlobal()) return seen;
-  StereoObservation compensated = seen;
+  StereoObservation straight = seen;
   const Eigen::Vector3d p_row = p_camera + displacement(twist, leftTime_s(seen.left_px), p_camera, 1.0);
   if (p_camera.z() < kNearestDepth_m || p_row.z() < kNearestDepth_m) return seen;
-  compensated.left_px -= projectLeft(calibration_, p_row) - projectLeft(calibration_, p_camera);
-  if (!seen.has_right) return compensated;
+  straight.left_px -= projectLeft(calibration_, p_row) - projectLeft(calibration_, p_camera);
+  if (!seen.has_right) return straight;
   const Eigen::Vector3d p_late = T_late_camera * p_camera;
   const Eigen::Vector3d p_late_row = p_late + displacement(twist, rightTime_s(seen.right_px), p_late, 1.0);
   if (p_late.z() < kNearestDepth_m || p_late_row.z() < kNearestDepth_m) return seen;
-  compensated.right_px -= projectRight(calibration_, p_late_row) - projectRight(calibration_, p_late);
-  return compensated;
+  straight.right_px -= projectRight(calibration_, p_late_row) - projectRight(calibration_, p_late);
+  return straight;
 }
 
 Eigen::Vector3d RollingShutter::rayDepthAtStamp(const Eigen::Vector2d& left_px, double inverse_depth,

@@ -5,17 +5,16 @@
 
 namespace stereo_nav::vision {
 
-/// Cheap cameras read the rows of an image one after another, from top to bottom, over a readout time. The
-/// stamp of the image is the time of the middle row. Pixels are moved, along the motion of the rig, to where
-/// they would have been seen at the stamp. A global shutter has a readout time of 0, and its pixels are not
-/// changed.
+/// Cheap cameras read the rows of an image one after another, top to bottom, over a readout time; the stamp
+/// is that of the middle row. What is seen in a row is moved to where it would have been seen at the stamp,
+/// along the rig's twist. A global shutter has no readout time, and nothing is changed.
 ///
-/// `twist` is the twist of the world in the left camera's frame at the stamp, m/s and rad/s.
+/// `twist` is that of the world in the left camera's frame at the stamp, m/s and rad/s.
 class RollingShutter {
  public:
   explicit RollingShutter(const StereoCalibration& calibration) : calibration_(calibration) {}
 
-  /// Sets the time from the first to the last row of the raw image, for the images to come.
+  /// For the images to come: from the first to the last row of the raw image.
   void setReadout(double readout_s) { readout_s_ = readout_s; }
   bool isGlobal() const { return readout_s_ == 0.0; }
   /// When the row of a pixel of the rectified image was taken, seconds after the stamp.
@@ -26,15 +25,14 @@ class RollingShutter {
     return time_s(calibration_.right_raw_rows, right_px);
   }
 
-  /// Where the left image shows a point that stands at `p_camera` at the stamp, and that a global shutter
-  /// would show at `px`.
+  /// Where the left image shows the point `p_camera` (its place at the stamp) that it would show at `px`.
   Eigen::Vector2d seenLeft(const Eigen::Vector2d& px, const Eigen::Vector3d& p_camera,
                            const Vector6d& twist) const;
   /// The observation that a global shutter would have made.
   StereoObservation atStamp(const StereoObservation& seen, const Eigen::Vector3d& p_camera,
                             const Eigen::Isometry3d& T_late_camera, const Vector6d& twist) const;
-  /// (x/z, y/z, 1/z) at the stamp of a point that is seen at `left_px` and has this inverse depth (1/m, may
-  /// be 0) at the time of that row.
+  /// (x/z, y/z, 1/z) at the stamp of a point that is seen at `left_px` with this 1/depth (1/m, may be 0) in
+  /// its row's own time.
   Eigen::Vector3d rayDepthAtStamp(const Eigen::Vector2d& left_px, double inverse_depth,
                                   const Vector6d& twist) const;
 

@@ -9,7 +9,7 @@
 namespace stereo_nav::vision {
 namespace {
 
-constexpr double kVague_px = 0.5;  ///< row error from which the search begins one level higher
+constexpr double kVague_px = 0.5;  ///< of the row: a search from one level further up
 
 }  // namespace
 
@@ -25,9 +25,9 @@ void SparseStereoParams::describe(ParameterVisitor& visitor) {
   visitor.real("uniqueness", uniqueness, {0.0, 1.0}, "",
                "a second place with more than this share of the best correlation makes a match ambiguous");
   visitor.real("max_epipolar_px", max_epipolar_px, {0.1, 50.0}, "px",
-               "largest distance of a match from its epipolar line");
+               "distance from the epipolar line at most");
   visitor.real("min_disparity_px", min_disparity_px, {1e-3, 10.0}, "px",
-               "points with a smaller disparity are too far to have a depth");
+               "points with less are too far to have a depth");
 }
 
 SparseStereoMatcher::SparseStereoMatcher(const SparseStereoParams& params,
@@ -81,7 +81,7 @@ std::optional<StereoMatch> SparseStereoMatcher::search(const ImagePyramid& left,
   const auto patch = Patch::cut(left.level(level), toCv(left_px) * scale, params_.search_window_px, 0.0);
   if (!patch) return std::nullopt;
   const cv::Mat& image = right.level(level);
-  // A fast rig with a large time offset makes the tolerance large, but no larger than the image.
+  // Fast rigs with much skew make it large: no more rows than there are.
   const auto row_tolerance =
       static_cast<int>(std::min<double>(image.rows, tolerance_px / static_cast<double>(1 << level)));
   const int steps = static_cast<int>(params_.max_disparity_share * image.cols);

@@ -21,8 +21,7 @@ struct SparseStereoParams {
 
   void describe(ParameterVisitor& visitor);
 
-  /// Patches are smaller than for tracking, since surfaces are distorted more between the two cameras than
-  /// between two frames.
+  /// Patches smaller than for tracking: surfaces lean more between the two cameras than between two frames.
   static PatchTrackerParams defaultRefinement() {
     PatchTrackerParams refinement;
     refinement.window_px = 9;
@@ -36,21 +35,21 @@ struct StereoMatch {
   Triangulation depth;
 };
 
-/// Finds corners of the left image in the right one, to a fraction of a pixel and independent of the gain and
-/// brightness of the two cameras. The search line bends with the motion between the two stamps. `slack_px` is
-/// the error of that line due to the uncertainty of the motion; it is 0 for synchronous pairs.
-/// epipolarError() learns the row error of the calibration from the matches that the caller passes to it.
+/// Finds corners of the left image in the right one, to a fraction of a pixel and whatever the gain and
+/// offset between the two cameras. The search line bends with the motion between the two stamps;
+/// `slack_px` is how far off it may be because that motion is not known well, 0 for synchronous pairs. What
+/// the calibration's rows are off is learned by epipolarError() from the matches that the caller believes.
 class SparseStereoMatcher {
  public:
   SparseStereoMatcher(const SparseStereoParams& params, const StereoCalibration& calibration);
 
-  /// Searches from a predicted position in the right image.
+  /// From a predicted position in the right image.
   std::optional<StereoMatch> refine(const ImagePyramid& left, const ImagePyramid& right,
                                     const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
                                     const Eigen::Vector2d& guess_px, double slack_px) const;
 
-  /// Searches without a prediction: the whole range of disparities on a coarse level, then from the best
-  /// place. Nothing is returned if a second place looks nearly as alike.
+  /// Without a prediction: the whole range of disparities on a coarse level, then from there. Nothing if a
+  /// second place looks nearly as alike.
   std::optional<StereoMatch> search(const ImagePyramid& left, const ImagePyramid& right,
                                     const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
                                     double slack_px) const;

@@ -7,22 +7,21 @@
 
 namespace stereo_nav::vision {
 
-/// Where the rig was when a stereo frame was taken. Two free-running cameras take their images at different
-/// times; between the two stamps the whole rig moves by T_late_camera.
+/// Where the rig was when a stereo frame was taken. The right image of two free-running cameras is taken at
+/// another time than the left one; between the two stamps the whole rig moves by T_late_camera.
 struct StereoView {
   Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< left camera at the left stamp
-  /// From the left camera at the left stamp to the left camera at the right stamp, which may also be the
-  /// earlier one; identity for a synchronous pair.
+  /// Left camera at the left stamp -> left camera at the right stamp; identity for a synchronous pair.
   Eigen::Isometry3d T_late_camera = Eigen::Isometry3d::Identity();
 };
 
-/// One point in the two images of a frame, each of which has its own time.
+/// One point in the two images of a frame; every image has its own time.
 struct StereoObservation {
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d right_px = Eigen::Vector2d::Zero();
   bool has_left = true;
   bool has_right = false;
-  double noise = 1.0;  ///< of the pixels, as a multiple of kPixelSigma_px
+  double noise = 1.0;  ///< of the pixels, relative to what a sharp image gives
 };
 
 /// Points nearer to the image plane than this are not projected. No two cameras see a point at one centimetre
@@ -57,7 +56,7 @@ struct Triangulation {
   double epipolar_px;    ///< distance of the right pixel from where the point projects to, signed by row
   double px_per_inverse_depth;  ///< how far the right pixel moves per 1/m: sigma = sigma_px / this
 };
-/// The point on the ray of `left_px` that projects nearest to `right_px`, with the motion between the stamps.
+/// Depth along the ray of `left_px` that projects nearest to `right_px`, whatever the two stamps.
 Triangulation triangulate(const StereoCalibration& calibration, const Eigen::Isometry3d& T_late_camera,
                           const Eigen::Vector2d& left_px, const Eigen::Vector2d& right_px);
 

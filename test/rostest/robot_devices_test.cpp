@@ -4,8 +4,12 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "nodes/visual_odometry/visual_odometry_params.h"
+#include "ros/capture_setup.h"
+#include "ros/imu_bridge_params.h"
 #include "rostest/diagnostics_probe.h"
 #include "rostest/graph_probe.h"
+#include "rostest/reconfigure.h"
 
 namespace stereo_nav::test {
 namespace {
@@ -56,6 +60,26 @@ TEST(RobotDevices, TheCameraLooksWhereTheRigFileSays) {
       << T.matrix();
   // The image's x axis, to the right, points forward then.
   EXPECT_TRUE(T.linear().col(0).isApprox(Eigen::Vector3d::UnitX(), 1e-9)) << T.matrix();
+}
+
+/// Every live parameter of every node, as its struct describes it; each is put back.
+TEST(RobotDevices, LiveParametersCanBeSetOnTheRunningNodes) {
+  const std::map<std::string, std::vector<LiveParameter>> nodes = {
+      {"/stereo_capture", LiveParameterList::of(ros_io::StereoCaptureParams())},
+      {"/imu_bridge", LiveParameterList::of(ros_io::ImuBridgeParams())},
+      {"/visual_odometry", LiveParameterList::of(nodes::VisualOdometryParams())}};
+  for (const auto& [node, parameters] : nodes) {
+    for (const auto& parameter : parameters) {
+      const std::string place = node + parameter.section;
+      SCOPED_TRACE(place + "/" + parameter.name);
+      const auto before = reconfigure(place, {});
+      ASSERT_TRUE(before);
+      const auto changed = reconfigure(place, {{parameter.name, parameter.max}});
+      ASSERT_TRUE(changed);
+      EXPECT_EQ(changed->at(parameter.name), parameter.max);
+      EXPECT_EQ(reconfigure(place, *before), before);
+    }
+  }
 }
 
 }  // namespace

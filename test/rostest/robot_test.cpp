@@ -10,7 +10,7 @@
 
 #include <optional>
 
-#include "ros/rig.h"
+#include "core/rig_file.h"
 #include "rostest/diagnostics_probe.h"
 #include "rostest/graph_probe.h"
 #include "support/command.h"
@@ -60,8 +60,8 @@ TEST(Robot, TheMountingIsThatOfTheRigFile) {
   tf2_ros::Buffer buffer;
   const tf2_ros::TransformListener listener(buffer);
   const auto mounting =
-      ros_io::loadMounting(ros::package::getPath("stereo_nav") + "/config/rigs/thesis.yaml");
-  for (const auto& [frame, expected] : {std::pair{"camera_left_optical", mounting.T_base_optical()},
+      RigFile::load(ros::package::getPath("stereo_nav") + "/config/rigs/thesis.yaml").mounting();
+  for (const auto& [frame, expected] : {std::pair{"camera_left_optical", mounting.camera.T_base_optical()},
                                         std::pair{"imu_link", mounting.imu.T_base_sensor()}}) {
     const Eigen::Isometry3d found = tf2::transformToEigen(
         buffer.lookupTransform("base_link", frame, ros::Time(0), ros::Duration(kLongWait_s)));

@@ -12,7 +12,7 @@
 #include <future>
 #include <sstream>
 
-#include "ros/rig.h"
+#include "core/rig_file.h"
 #include "rostest/graph_probe.h"
 #include "sim/simulation.h"
 #include "stereo_nav/StereoSync.h"
@@ -81,7 +81,7 @@ class KeyMarker {
 double trueDepth() {
   const sim::Scenario scenario = sim::loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/arena.yaml");
   const Eigen::Isometry3d T_base_camera =
-      ros_io::loadMounting(STEREO_NAV_SOURCE_DIR "/config/rigs/thesis.yaml").T_base_optical();
+      RigFile::load(STEREO_NAV_SOURCE_DIR "/config/rigs/thesis.yaml").mounting().camera.T_base_optical();
   const auto& P = sim::loadStereoCalibration(STEREO_NAV_SOURCE_DIR "/config/thesis").left.P;
   const Eigen::Vector3d ray((kPixel.x - P(0, 2)) / P(0, 0), (kPixel.y - P(1, 2)) / P(1, 1), 1.0);
   return sim::Scene(scenario.scene).castRay(T_base_camera.translation(), T_base_camera.linear() * ray, 0.0);

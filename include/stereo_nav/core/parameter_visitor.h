@@ -17,40 +17,88 @@ class ParameterError : public std::runtime_error {
 /// Both ends are allowed values.
 template <class T>
 struct Range {
-  T min;  ///< smallest allowed value
-  T max;  ///< largest allowed value
+  T min;
+  T max;
+};
+
+/// When a new value of a parameter takes effect.
+enum class Change {
+  kAtStart,  ///< the node reads it once, when it starts
+  kLive,     ///< dynamic_reconfigure can change it on the running node, too
+};
+
+/// What a parameter struct tells about a field beside its value and range.
+struct ParameterField {
+  std::string name;
+  std::string unit;  ///< empty for pure numbers
+  std::string doc;
+  Change change;
 };
 
 /// What every parameter struct tells about each of its fields, once, in its `describe(ParameterVisitor&)`.
-/// Reading YAML, checking ranges and printing the documentation are visitors; none of them knows the structs.
+/// Reading YAML, checking ranges, dynamic_reconfigure and the documentation are visitors; none of them knows
+/// the structs.
 class ParameterVisitor {
  public:
   virtual ~ParameterVisitor() = default;
-  virtual void flag(const std::string& name, bool& value, const std::string& doc) = 0;
-  virtual void integer(const std::string& name, int& value, Range<int> range, const std::string& unit,
-                       const std::string& doc) = 0;
-  virtual void real(const std::string& name, double& value, Range<double> range, const std::string& unit,
-                    const std::string& doc) = 0;
+
+  void flag(const std::string& name, bool& value, const std::string& doc, Change change = Change::kAtStart) {
+    visit({name, "", doc, change}, value);
+  }
+  void integer(const std::string& name, int& value, Range<int> range, const std::string& unit,
+               const std::string& doc, Change change = Change::kAtStart) {
+    visit({name, unit, doc, change}, value, range);
+  }
+  void real(const std::string& name, double& value, Range<double> range, const std::string& unit,
+            const std::string& doc, Change change = Change::kAtStart) {
+    visit({name, unit, doc, change}, value, range);
+  }
   /// Free text: names of frames, topics, devices, files.
-  virtual void text(const std::string& name, std::string& value, const std::string& doc) = 0;
+  void text(const std::string& name, std::string& value, const std::string& doc,
+            Change change = Change::kAtStart) {
+    visit({name, "", doc, change}, value);
+  }
   /// `index` counts into `names`.
-  virtual void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
-                      const std::string& doc) = 0;
-  virtual void enterSection(const std::string& name) = 0;
-  virtual void leaveSection() = 0;
+  void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
+              const std::string& doc, Change change = Change::kAtStart) {
+    visit({name, "", doc, change}, index, names);
+  }
+  virtual void enterSection(const std::string& name) { sections_.push_back(name); }
+  virtual void leaveSection() { sections_.pop_back(); }
+
+ protected:
+  /// The name with its sections, e.g. `corners.threshold`.
+  std::string fullName(const std::string& name) const {
+    std::string full;
+    for (const auto& section : sections_) full += section + ".";
+    return full + name;
+  }
+  /// From the outermost section to the present one; empty outside of all.
+  const std::vector<std::string>& sections() const { return sections_; }
+
+ private:
+  virtual void visit(const ParameterField& field, bool& value) = 0;
+  virtual void visit(const ParameterField& field, int& value, Range<int> range) = 0;
+  virtual void visit(const ParameterField& field, double& value, Range<double> range) = 0;
+  virtual void visit(const ParameterField& field, std::string& value) = 0;
+  virtual void visit(const ParameterField& field, std::size_t& index,
+                     const std::vector<std::string>& names) = 0;
+
+  std::vector<std::string> sections_;
 };
 
 /// A field of enumeration type; each value with its name in configuration files.
 template <class Enum>
 void visitEnum(ParameterVisitor& visitor, const std::string& name, Enum& value,
-               const std::vector<std::pair<std::string, Enum>>& values, const std::string& doc) {
+               const std::vector<std::pair<std::string, Enum>>& values, const std::string& doc,
+               Change change = Change::kAtStart) {
   std::vector<std::string> names;
   std::size_t index = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     names.push_back(values[i].first);
     if (values[i].second == value) index = i;
   }
-  visitor.choice(name, index, names, doc);
+  visitor.choice(name, index, names, doc, change);
   value = values[index].second;
 }
 

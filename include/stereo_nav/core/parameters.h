@@ -17,7 +17,8 @@ struct ParameterDoc {
   std::string default_value;  ///< the value in the struct when it was described
   std::string range;          ///< e.g. `1 to 255`
   std::string unit;           ///< empty for pure numbers
-  std::string doc;            ///< its meaning
+  std::string doc;
+  bool live;  ///< dynamic_reconfigure can change it on the running node
 };
 
 namespace internal {
@@ -26,6 +27,12 @@ void readYaml(const YAML::Node& node, const std::string& source, const Describe&
 void checkRanges(const std::string& source, const Describe& describe);
 std::vector<ParameterDoc> document(const Describe& describe);
 }  // namespace internal
+
+/// The content of a text file. Throws ParameterError that says where the file was looked for.
+std::string readTextFile(const std::string& path);
+
+/// Throws ParameterError that names `source` and the line of a syntax error.
+YAML::Node parseYaml(const std::string& text, const std::string& source);
 
 /// Parses a YAML file. Throws ParameterError that names the file and the line of a syntax error.
 YAML::Node loadYamlFile(const std::string& path);
@@ -45,7 +52,7 @@ void validateParameters(const Params& params, const std::string& source) {
   internal::checkRanges(source, [&copy](ParameterVisitor& visitor) { copy.describe(visitor); });
 }
 
-/// Every field with type, range, unit and default.
+/// Every field with type, range, unit, default, and whether it can be changed live.
 template <class Params>
 std::vector<ParameterDoc> documentParameters(const Params& params) {
   Params copy = params;

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <sstream>
 
+#include "core/rig_file.h"
 #include "nodes/imu_bridge/imu_messages.h"
 #include "ros/parameter_server.h"
-#include "ros/rig.h"
 #include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::nodes {
@@ -20,18 +20,11 @@ constexpr double kCalibrationPatience_s = 5.0;
 
 ros_io::ImuBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
   ros_io::ImuBridgeParams params;
-  ros_io::readParameters({ros_io::fileSource(private_handle, "config"),
-                          ros_io::rigSource(private_handle, ros_io::rig_sections::kImu),
-                          ros_io::serverSource(private_handle, {"diagnostic_period"})},
-                         params);
+  ros_io::readParameters(
+      {ros_io::fileSource(private_handle, "config"), ros_io::rigSource(private_handle, rig_sections::kImu),
+       ros_io::serverSource(private_handle, {"diagnostic_period"})},
+      params);
   return params;
-}
-
-/// dynamic_reconfigure takes its first values from the server.
-const ros::NodeHandle& announce(const ros::NodeHandle& private_handle,
-                                const ros_io::ImuBridgeParams& params) {
-  ros_io::writeParameters(private_handle, params);
-  return private_handle;
 }
 
 /// A file that does not exist yet is one that imu/calibrate_gyro will write.
@@ -49,10 +42,10 @@ ImuBridgeNode::ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandl
       device_(params_.device, imu::PortFinder(params_.port, params_.by_id_directory)),
       updater_(handle_, private_handle_),
       estimator_(params_.filter, readCalibration(params_.calibration_file), params_.rate_window_s),
-      reconfigure_server_(announce(private_handle_, params_)) {
-  // Calls back at once with the parameters as they are.
-  reconfigure_server_.setCallback(
-      [this](const ImuBridgeConfig& config, std::uint32_t) { reconfigure(config); });
+      live_parameters_(private_handle_, params_, [this](const ros_io::ImuBridgeParams& params) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        live_ = params;
+      }) {
   data_ = handle_.advertise<sensor_msgs::Imu>(ros_io::topics::kImu, 100);
   quaternion_ = handle_.advertise<geometry_msgs::Quaternion>(ros_io::topics::kImuQuaternion, 100);
   if (params_.device.protocol == imu::Protocol::kRaw) {
@@ -64,14 +57,6 @@ ImuBridgeNode::ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandl
   updater_.setHardwareID(params_.port);
   updater_.add("imu", this, &ImuBridgeNode::fillStatus);
   watch_timer_ = handle_.createWallTimer(ros::WallDuration(0.5), &ImuBridgeNode::watch, this);
-}
-
-void ImuBridgeNode::reconfigure(const ImuBridgeConfig& config) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  params_.tilt_stddev_rad = config.tilt_stddev_rad;
-  params_.yaw_stddev_rad = config.yaw_stddev_rad;
-  params_.angular_velocity_stddev_rad_s = config.angular_velocity_stddev_rad_s;
-  params_.linear_acceleration_stddev_m_s2 = config.linear_acceleration_stddev_m_s2;
 }
 
 void ImuBridgeNode::run() {
@@ -104,11 +89,11 @@ void ImuBridgeNode::publish(const imu::ImuReading& reading) {
       calibrator_->add(reading.time_s, reading.raw->angular_velocity, reading.raw->linear_acceleration);
       if (calibrator_->complete()) calibrated_.notify_all();
     }
-    message = toMessage(estimate, params_, stamp);
+    message = toMessage(estimate, live_, stamp);
     if (reading.raw) {
       const imu::ImuEstimate raw{std::nullopt, reading.raw->angular_velocity,
                                  reading.raw->linear_acceleration};
-      message_raw = toMessage(raw, params_, stamp);
+      message_raw = toMessage(raw, live_, stamp);
     }
   }
   data_.publish(message);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <dynamic_reconfigure/server.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
@@ -10,8 +9,8 @@
 #include <optional>
 
 #include "ros/imu_bridge_params.h"
+#include "ros/live_parameters.h"
 #include "sensors/imu/imu_estimator.h"
-#include "stereo_nav/ImuBridgeConfig.h"
 
 namespace stereo_nav::nodes {
 
@@ -26,7 +25,6 @@ class ImuBridgeNode {
   void run();
 
  private:
-  void reconfigure(const ImuBridgeConfig& config);
   void publish(const imu::ImuReading& reading);
   void publishAngles(const imu::ModuleAngles& angles);
   ros::Time rosTime(double steady_s);
@@ -38,7 +36,7 @@ class ImuBridgeNode {
   void reportState();
 
   ros::NodeHandle handle_, private_handle_;
-  ros_io::ImuBridgeParams params_;
+  const ros_io::ImuBridgeParams params_;  ///< as they were at the start
   imu::ImuDevice device_;
   ros::Publisher data_, data_raw_, quaternion_, chatter_;
   ros::ServiceServer calibrate_gyro_, reset_yaw_;
@@ -46,7 +44,8 @@ class ImuBridgeNode {
   ros::WallTimer watch_timer_;
   ros::Time last_stamp_;
 
-  std::mutex mutex_;  ///< guards estimator, calibrator and the standard deviations in params_
+  std::mutex mutex_;              ///< guards estimator, calibrator and live_
+  ros_io::ImuBridgeParams live_;  ///< as dynamic_reconfigure has set them
   std::condition_variable calibrated_;
   imu::ImuEstimator estimator_;
   std::optional<imu::GyroCalibrator> calibrator_;
@@ -54,7 +53,7 @@ class ImuBridgeNode {
   imu::LinkState reported_state_ = imu::LinkState::kWaiting;
   ros::WallTime reported_at_;
   imu::DecoderCounters reported_counters_;
-  dynamic_reconfigure::Server<ImuBridgeConfig> reconfigure_server_;
+  ros_io::LiveParameters<ros_io::ImuBridgeParams> live_parameters_;
 };
 
 }  // namespace stereo_nav::nodes

@@ -4,12 +4,12 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include "core/rig_file.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "ros/capture_setup.h"
 #include "ros/imu_bridge_params.h"
 #include "ros/node_program.h"
 #include "ros/parameter_server.h"
-#include "ros/rig.h"
 #include "ros/stereo_processing.h"
 
 namespace stereo_nav::nodes {
@@ -18,11 +18,11 @@ namespace {
 /// Sections that other nodes read are checked here, too: wherever a mistake is, this node names it.
 void checkSections(const ros::NodeHandle& private_handle) {
   ros_io::CaptureSetup cameras;
-  cameras.read({ros_io::rigSource(private_handle, ros_io::rig_sections::kCameras)});
+  cameras.read({ros_io::rigSource(private_handle, rig_sections::kCameras)});
   ros_io::ImuBridgeParams imu;
-  ros_io::readParameters({ros_io::rigSource(private_handle, ros_io::rig_sections::kImu)}, imu);
+  ros_io::readParameters({ros_io::rigSource(private_handle, rig_sections::kImu)}, imu);
   ros_io::DisparityParams disparity;
-  ros_io::readParameters({ros_io::rigSource(private_handle, ros_io::rig_sections::kDisparity)}, disparity);
+  ros_io::readParameters({ros_io::rigSource(private_handle, rig_sections::kDisparity)}, disparity);
 }
 
 geometry_msgs::TransformStamped toMessage(const std::string& parent, const std::string& child,
@@ -35,7 +35,7 @@ geometry_msgs::TransformStamped toMessage(const std::string& parent, const std::
 }
 
 void addPose(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
-             const ros_io::SensorMounting& pose) {
+             const SensorMounting& pose) {
   status.addf(name + " x, y, z [m]", "%.3f, %.3f, %.3f", pose.x_m, pose.y_m, pose.z_m);
   status.addf(name + " roll, pitch, yaw [deg]", "%.2f, %.2f, %.2f", pose.roll_deg, pose.pitch_deg,
               pose.yaw_deg);
@@ -47,12 +47,12 @@ int run() {
   ros_io::readParameters({ros_io::serverSource(private_handle, {"diagnostic_period"})}, params);
   const auto rig = private_handle.param<std::string>("rig", "");
   if (rig.empty()) throw ParameterError("~rig is not set; it is the path of the rig file");
-  const ros_io::Mounting mounting = ros_io::loadMounting(rig);
+  const Mounting mounting = RigFile::load(rig).mounting();
   checkSections(private_handle);
 
   tf2_ros::StaticTransformBroadcaster broadcaster;
   broadcaster.sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      toMessage(params.base_frame, params.camera_frame, mounting.T_base_optical()),
+      toMessage(params.base_frame, params.camera_frame, mounting.camera.T_base_optical()),
       toMessage(params.base_frame, params.imu_frame, mounting.imu.T_base_sensor())});
 
   diagnostic_updater::Updater updater(handle, private_handle);

@@ -2,13 +2,14 @@
 #include <filesystem>
 #include <sstream>
 
+#include "core/rig_file.h"
 #include "nodes/simulator/simulator_node.h"
+#include "ros/calibration_url.h"
 #include "ros/capture_setup.h"
 #include "ros/image_proc_loader.h"
 #include "ros/node_program.h"
 #include "ros/package_files.h"
 #include "ros/parameter_server.h"
-#include "ros/rig.h"
 
 namespace stereo_nav::nodes {
 namespace {
@@ -36,14 +37,9 @@ SimulatedRig readRig(const ros::NodeHandle& private_node, sim::RigParams& camera
   const auto rig = private_node.param<std::string>("rig", "");
   if (rig.empty()) return {sim::loadStereoCalibration(ros_io::thesisCalibrationFolder())};
   ros_io::CaptureSetup setup;
-  setup.read({ros_io::rigSource(private_node, ros_io::rig_sections::kCameras)});
-  const ros_io::Mounting mounting = ros_io::loadMounting(rig);
-  cameras.camera_x_m = mounting.camera.x_m;
-  cameras.camera_y_m = mounting.camera.y_m;
-  cameras.camera_z_m = mounting.camera.z_m;
-  cameras.camera_roll_deg = mounting.camera.roll_deg;
-  cameras.camera_pitch_deg = mounting.camera.pitch_deg;
-  cameras.camera_yaw_deg = mounting.camera.yaw_deg;
+  setup.read({ros_io::rigSource(private_node, rig_sections::kCameras)});
+  const Mounting mounting = RigFile::load(rig).mounting();
+  cameras.camera = mounting.camera;
   return {{loadCalibration(setup.params.left.calibration, "left"),
            loadCalibration(setup.params.right.calibration, "right")},
           mounting.imu.T_base_sensor()};

@@ -5,7 +5,7 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
-#include "ros/rig.h"
+#include "ros/calibration_url.h"
 
 namespace stereo_nav::nodes {
 namespace {

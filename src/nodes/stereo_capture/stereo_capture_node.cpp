@@ -4,8 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "core/rig_file.h"
 #include "ros/parameter_server.h"
-#include "ros/rig.h"
 #include "stereo_nav/StereoSync.h"
 #include "stereo_nav/ros/topics.h"
 
@@ -22,7 +22,7 @@ constexpr std::int64_t kClockStep_ns = 10'000'000;
 ros_io::CaptureSetup readSetup(const ros::NodeHandle& private_handle) {
   ros_io::CaptureSetup setup;
   setup.read({ros_io::fileSource(private_handle, "config"),
-              ros_io::rigSource(private_handle, ros_io::rig_sections::kCameras),
+              ros_io::rigSource(private_handle, rig_sections::kCameras),
               ros_io::serverSource(private_handle, kForeignParameters)});
   return setup;
 }
@@ -79,11 +79,9 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
         std::make_unique<ros_io::ImageProcLoader>(params_.stamps == camera::CaptureParams::Stamps::Common,
                                                   ros_io::readDisparityParams(private_handle_));
   }
-  ros_io::writeParameters(private_handle_, setup_.params);
-  // Calls back at once with the parameters as they are.
-  reconfigure_server_ = std::make_unique<dynamic_reconfigure::Server<StereoCaptureConfig>>(private_handle_);
-  reconfigure_server_->setCallback(
-      [this](const StereoCaptureConfig& config, std::uint32_t) { reconfigure(config); });
+  live_parameters_ = std::make_unique<ros_io::LiveParameters<ros_io::StereoCaptureParams>>(
+      private_handle_, setup_.params,
+      [this](const ros_io::StereoCaptureParams& params) { applyLive(params.capture); });
   camera_->start();
   timer_ = handle_.createWallTimer(ros::WallDuration(1.0), &StereoCaptureNode::handleTimer, this);
 }
@@ -132,9 +130,9 @@ void StereoCaptureNode::followSystemClock() {
            1e-9 * static_cast<double>(change_ns));
 }
 
-void StereoCaptureNode::reconfigure(const StereoCaptureConfig& config) {
-  camera_->setMaxSkew(config.max_skew_s);
-  for (const auto& setting : camera::exposureControls(config.exposure_ms, config.gain)) {
+void StereoCaptureNode::applyLive(const camera::CaptureParams& params) {
+  camera_->setMaxSkew(params.max_skew_s);
+  for (const auto& setting : camera::exposureControls(params.exposure_ms, params.gain)) {
     camera_->left().setControl(setting.name, setting.value);
     if (!params_.match_exposure) camera_->right().setControl(setting.name, setting.value);
   }

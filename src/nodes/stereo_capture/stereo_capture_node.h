@@ -1,6 +1,5 @@
 #pragma once
 
-#include <dynamic_reconfigure/server.h>
 #include <ros/node_handle.h>
 
 #include <memory>
@@ -10,10 +9,10 @@
 #include "nodes/stereo_capture/capture_diagnostics.h"
 #include "ros/capture_setup.h"
 #include "ros/image_proc_loader.h"
+#include "ros/live_parameters.h"
 #include "ros/problem_list.h"
 #include "sensors/camera/clock_mapping.h"
 #include "sensors/camera/stereo_camera.h"
-#include "stereo_nav/StereoCaptureConfig.h"
 
 namespace stereo_nav::nodes {
 
@@ -28,7 +27,7 @@ class StereoCaptureNode {
   void publish(camera::StereoImages images);
   void publishSync(const camera::StereoImages& images, const ros::Time& left, const ros::Time& right);
   void followSystemClock();
-  void reconfigure(const StereoCaptureConfig& config);
+  void applyLive(const camera::CaptureParams& params);
   void handleTimer(const ros::WallTimerEvent&);
   void tellCalibrationProblem(camera::Side side);
   CameraPublisher& publisherOf(camera::Side side) {
@@ -48,7 +47,7 @@ class StereoCaptureNode {
   std::unique_ptr<camera::StereoCamera> camera_;
   std::unique_ptr<CaptureDiagnostics> diagnostics_;
   std::unique_ptr<ros_io::ImageProcLoader> image_proc_;
-  std::unique_ptr<dynamic_reconfigure::Server<StereoCaptureConfig>> reconfigure_server_;
+  std::unique_ptr<ros_io::LiveParameters<ros_io::StereoCaptureParams>> live_parameters_;
   ros::WallTimer timer_;
 };
 

@@ -28,7 +28,8 @@ class OdometryInputs {
                  const VisualOdometryParams& params, const ros_io::FrameSynchroniserParams& synchronisation,
                  ros_io::Inbox& inbox, Health& health);
 
-  void setTimeout(double timeout_s) { monitor_.setTimeout(timeout_s); }
+  /// Takes over what dynamic_reconfigure has changed.
+  void applyLive(const VisualOdometryParams& params) { monitor_.setTimeout(params.input_timeout_s); }
   /// To be called a few times a second: time without messages passes only here and in the callbacks.
   void tick() { clock_.seconds(); }
   /// Tells `health` what is silent, does not fit together, or was dropped since the last report.

@@ -56,11 +56,6 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle& handle, const VisualOdomet
   path_.header.frame_id = params_.odom_frame;
 }
 
-void OdometryPublisher::setLive(bool publish_tf, double path_spacing_m) {
-  params_.publish_tf = publish_tf;
-  params_.path_spacing_m = path_spacing_m;
-}
-
 void OdometryPublisher::publish(const ros_io::FrameMessages& frame, const SessionOutput& output,
                                 const FrameCounts& counts) {
   if (output.processed) publishOdometry(frame, output.base);

@@ -29,7 +29,8 @@ class OdometryPublisher {
 
   void publish(const ros_io::FrameMessages& frame, const SessionOutput& output, const FrameCounts& counts);
   void forgetPath() { path_.poses.clear(); }
-  void setLive(bool publish_tf, double path_spacing_m);
+  /// Takes over what dynamic_reconfigure has changed.
+  void applyLive(const VisualOdometryParams& params) { params_ = params; }
 
  private:
   void publishOdometry(const ros_io::FrameMessages& frame, const estimation::BaseEstimate& base);

@@ -49,9 +49,9 @@ SessionOutput OdometrySession::process(const ros_io::Inbox::Work& work, const Se
   return output;
 }
 
-void OdometrySession::setUncertainty(const estimation::UncertaintyParams& uncertainty) {
-  params_.uncertainty = uncertainty;
-  if (base_) base_->setUncertainty(uncertainty);
+void OdometrySession::applyLive(const VisualOdometryParams& params) {
+  params_ = params;
+  if (base_) base_->setUncertainty(params.uncertainty);
 }
 
 void OdometrySession::reset() {

@@ -54,8 +54,8 @@ class OdometrySession {
   /// jump back: a corrected clock must not move the robot, a bag that starts again begins at the origin.
   SessionOutput process(const ros_io::Inbox::Work& work, const SensorSetup& setup, bool live);
 
-  /// For the frames to come.
-  void setUncertainty(const estimation::UncertaintyParams& uncertainty);
+  /// Takes over what dynamic_reconfigure has changed, for the frames to come.
+  void applyLive(const VisualOdometryParams& params);
 
   /// Forgets everything but the mounting; the next frame is the origin.
   void reset();

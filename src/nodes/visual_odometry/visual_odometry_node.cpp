@@ -81,7 +81,8 @@ VisualOdometryNode::VisualOdometryNode(const ros::NodeHandle& handle, const ros:
   worker_ = std::thread(&VisualOdometryNode::work, this);
   reset_service_ = handle_.advertiseService("vo/reset", &VisualOdometryNode::handleReset, this);
   set_pose_service_ = handle_.advertiseService("vo/set_pose", &VisualOdometryNode::handleSetPose, this);
-  offerReconfiguration();
+  live_parameters_ = std::make_unique<ros_io::LiveParameters<VisualOdometryParams>>(
+      private_handle_, params_, [this](const VisualOdometryParams& params) { applyLive(params); });
   timer_ = handle_.createWallTimer(ros::WallDuration(kTimerPeriod_s), &VisualOdometryNode::handleTimer, this);
 }
 
@@ -90,26 +91,11 @@ VisualOdometryNode::~VisualOdometryNode() {
   worker_.join();
 }
 
-/// Both call back at once with the parameters as they are, which they take from the server.
-void VisualOdometryNode::offerReconfiguration() {
-  ros_io::writeParameters(private_handle_, params_);
-  reconfigure_server_ = std::make_unique<dynamic_reconfigure::Server<VisualOdometryConfig>>(private_handle_);
-  reconfigure_server_->setCallback([this](const VisualOdometryConfig& config, std::uint32_t) {
-    inputs_.setTimeout(config.input_timeout_s);
-    const std::lock_guard<std::mutex> lock(session_mutex_);
-    publisher_.setLive(config.publish_tf, config.path_spacing_m);
-  });
-  uncertainty_server_ = std::make_unique<dynamic_reconfigure::Server<UncertaintyConfig>>(
-      ros::NodeHandle(private_handle_, "uncertainty"));
-  uncertainty_server_->setCallback([this](const UncertaintyConfig& config, std::uint32_t) {
-    estimation::UncertaintyParams uncertainty;
-    uncertainty.min_translation_sigma_m = config.min_translation_sigma_m;
-    uncertainty.min_rotation_sigma_rad = config.min_rotation_sigma_rad;
-    uncertainty.lost_speed_m_s = config.lost_speed_m_s;
-    uncertainty.lost_turn_rate_rad_s = config.lost_turn_rate_rad_s;
-    const std::lock_guard<std::mutex> lock(session_mutex_);
-    session_.setUncertainty(uncertainty);
-  });
+void VisualOdometryNode::applyLive(const VisualOdometryParams& params) {
+  inputs_.applyLive(params);
+  const std::lock_guard<std::mutex> lock(session_mutex_);
+  publisher_.applyLive(params);
+  session_.applyLive(params);
 }
 
 bool VisualOdometryNode::handleReset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <dynamic_reconfigure/server.h>
 #include <ros/ros.h>
 #include <std_srvs/Empty.h>
 #include <tf2_ros/buffer.h>
@@ -17,9 +16,8 @@
 #include "nodes/visual_odometry/odometry_publisher.h"
 #include "nodes/visual_odometry/odometry_session.h"
 #include "ros/inbox.h"
+#include "ros/live_parameters.h"
 #include "stereo_nav/SetPose.h"
-#include "stereo_nav/UncertaintyConfig.h"
-#include "stereo_nav/VisualOdometryConfig.h"
 
 namespace stereo_nav::nodes {
 
@@ -33,7 +31,7 @@ class VisualOdometryNode {
   ~VisualOdometryNode();
 
  private:
-  void offerReconfiguration();
+  void applyLive(const VisualOdometryParams& params);
   bool handleReset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
   bool handleSetPose(SetPose::Request& request, SetPose::Response& response);
   void handleTimer(const ros::WallTimerEvent& event);
@@ -58,9 +56,7 @@ class VisualOdometryNode {
   DisparityView disparity_view_;
   OdometryInputs inputs_;
   ros::ServiceServer reset_service_, set_pose_service_;
-  std::unique_ptr<dynamic_reconfigure::Server<VisualOdometryConfig>> reconfigure_server_;
-  std::unique_ptr<dynamic_reconfigure::Server<UncertaintyConfig>>
-      uncertainty_server_;  ///< below ~uncertainty
+  std::unique_ptr<ros_io::LiveParameters<VisualOdometryParams>> live_parameters_;
   ros::WallTimer timer_;
   std::thread worker_;
 };

@@ -6,9 +6,8 @@
 
 namespace stereo_nav::odometry {
 
-/// A symmetric 0/1 matrix M over features, in which M(i, j) is 1 if i and j moved as one rigid body. It takes
-/// one bit per pair. Rows are sequences of 64-bit words, so that sets of candidates are intersected word by
-/// word.
+/// The symmetric 0/1 matrix M over features: M(i, j) says that i and j moved as one rigid body. One bit per
+/// pair; rows are sequences of 64-bit words, so that sets of candidates intersect a word at a time.
 class ConsistencyGraph {
  public:
   explicit ConsistencyGraph(std::size_t size)

@@ -36,12 +36,10 @@ class Search {
  private:
   struct Coloured {
     std::size_t node;
-    std::size_t
-        colour;  ///< counted from 1; a clique among the nodes up to here has at most this many members
+    std::size_t colour;  ///< from 1: a clique among the nodes up to here has at most so many members
   };
 
-  /// The nodes in the order of their colours. Nodes of one colour are not connected, so that a clique has at
-  /// most one of each colour.
+  /// Nodes by colour; members of one colour are not connected, so a clique has at most one of each.
   std::vector<Coloured> colour(const Words& candidates) const {
     std::vector<Coloured> order;
     Words uncoloured = candidates;

@@ -16,8 +16,7 @@ struct CliqueResult {
 
 /// The largest clique by branch and bound on bit sets with a greedy colouring as the bound (Tomita and Seki
 /// 2003; San Segundo, Rodriguez-Losada and Jimenez 2011), started from the greedy one. After `budget`
-/// expanded nodes the best clique so far is returned. The budget is counted, not timed, so that results
-/// repeat.
+/// expanded nodes the best so far is returned: counted, not timed, so that results repeat.
 CliqueResult largestClique(const ConsistencyGraph& graph, std::size_t budget);
 
 }  // namespace stereo_nav::odometry

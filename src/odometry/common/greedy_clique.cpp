@@ -13,7 +13,7 @@ int commonBits(const std::uint64_t* a, const Words& b) {
   return count;
 }
 
-/// The member of `candidates` that is connected to most of the others; graph.size() if there is none.
+/// The member of `candidates` that is connected to most others of them; graph.size() if there is none.
 std::size_t bestConnected(const ConsistencyGraph& graph, const Words& candidates) {
   std::size_t best = graph.size();
   int best_degree = -1;

@@ -52,8 +52,8 @@ std::string blankImage(std::size_t corners) {
 }
 
 std::string moverFillsView() {
-  return "most features change their velocity within a frame as no robot can: something that moves on its own fills the view; "
-         "the features seen before are waited for";
+  return "most of what is seen moves as no robot could have begun to within a frame: something that moves on "
+         "its own fills the view; the features seen before are waited for";
 }
 
 }  // namespace stereo_nav::odometry

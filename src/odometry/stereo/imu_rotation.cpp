@@ -6,12 +6,13 @@ namespace stereo_nav::odometry {
 
 void ImuRotationParams::describe(ParameterVisitor& visitor) {
   visitor.real("initial_bias_sigma_rad_s", initial_bias_sigma_rad_s, {1e-6, 10.0}, "rad/s",
-               "uncertainty of the bias of the rates at the start");
-  visitor.real("bias_walk_rad_s2", bias_walk_rad_s2, {0.0, 1.0}, "rad/s/sqrt(s)", "random walk of the bias");
+               "uncertainty of the rates' bias at the start");
+  visitor.real("bias_walk_rad_s2", bias_walk_rad_s2, {0.0, 1.0}, "rad/s/sqrt(s)",
+               "how fast the bias wanders");
   visitor.real("angle_sigma_rad", angle_sigma_rad, {1e-6, 1.0}, "rad",
-               "uncertainty of a rotation between two frames, apart from the bias");
+               "uncertainty of a rotation between two frames without bias");
   visitor.real("angle_sigma_share", angle_sigma_share, {0.0, 1.0}, "",
-               "additional uncertainty as a share of the angle turned, from scale, stamps and mounting");
+               "its uncertainty as a share of the angle turned: scale, stamps and mounting");
 }
 
 ImuRotation::ImuRotation(const ImuRotationParams& params, const Eigen::Matrix3d& R_camera_imu)
@@ -38,7 +39,7 @@ std::optional<ImuRotation::Increment> ImuRotation::increment(double from_s, doub
   const Eigen::Vector3d angle = logRotation(*R_to_from);
   const double share = params_.angle_sigma_share * angle.norm();
   Increment increment;
-  // Coordinates turn by minus the rate, so that the bias is added.
+  // R_to_from turns by minus the rate, hence the plus.
   increment.R_to_from = expRotation(angle + bias_ * interval_s);
   increment.sigma_rad = std::sqrt(params_.angle_sigma_rad * params_.angle_sigma_rad + share * share +
                                   bias_variance_ * interval_s * interval_s);

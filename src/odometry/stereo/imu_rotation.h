@@ -17,8 +17,8 @@ struct ImuRotationParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Rotations of the camera, measured by the IMU and corrected by the bias of its rates. A Kalman filter
-/// estimates the bias, a random walk, from the differences between the rotations of the IMU and of vision.
+/// Rotations of the camera from the IMU, freed from the bias of its rates, which vision reveals: a Kalman
+/// filter with the bias as a random walk and the difference of the two rotations as its measurement.
 class ImuRotation {
  public:
   ImuRotation(const ImuRotationParams& params, const Eigen::Matrix3d& R_camera_imu);
@@ -30,11 +30,11 @@ class ImuRotation {
     Eigen::Matrix3d R_to_from;  ///< coordinates of the camera frame at `from_s` into those at `to_s`
     double sigma_rad;           ///< per axis, bias included
   };
-  /// Nothing is returned where the samples do not cover the interval.
+  /// Nothing where the samples do not cover the interval.
   std::optional<Increment> increment(double from_s, double to_s) const;
 
-  /// Learns the bias from the rotation that vision measured over an interval; `sigma_rad` is per axis.
-  /// Differences beyond 5 sigma are no bias and are ignored.
+  /// What vision found for the same interval; `sigma_rad` per axis. Differences beyond 5 sigma are no bias
+  /// and are ignored.
   void learn(double from_s, double to_s, const Eigen::Matrix3d& R_to_from, double sigma_rad);
 
   const Eigen::Vector3d& bias() const { return bias_; }  ///< rad/s, camera frame

@@ -22,9 +22,9 @@ struct RigidPoint {
   Eigen::Vector3d now;
 };
 
-/// Which pairs of points kept their distance within the noise of their triangulation: the change of each
-/// distance is compared with its own propagated sigma (Hirschmueller, Innocent and Garibaldi 2002). Far
-/// points have large sigmas and agree with all others; they still determine the rotation.
+/// Which pairs of points kept their distance, as far as the noise of their triangulation lets one tell
+/// (Hirschmueller, Innocent and Garibaldi 2002): the change of the distance against its own propagated sigma.
+/// Far points have large sigmas and agree with everything; they still serve for the rotation.
 ConsistencyGraph buildNoisyRigidityGraph(const NoisyRigidityParams& params,
                                          const vision::StereoCalibration& calibration,
                                          const std::vector<RigidPoint>& points);

@@ -107,7 +107,7 @@ class RobustNoise {
   /// `unknowns` that were fitted to the observations, px^2.
   double variance(int unknowns) const {
     const double spare = std::max(1.0, coordinates_ - unknowns);
-    // A few outliers must not bring the sum of slopes to zero.
+    // No sum of slopes that a handful of outliers could bring to zero.
     const double slope = std::max(slope_, 0.1 * weight_);
     return influence_squares_ * weight_ * coordinates_ / (slope * slope * spare);
   }
@@ -125,7 +125,7 @@ class RobustNoise {
 void PoseEstimatorParams::describe(ParameterVisitor& visitor) {
   visitor.integer("iterations", iterations, {1, 100}, "", "most Gauss-Newton iterations");
   visitor.real("loss_px", loss_px, {0.01, 100.0}, "px", "scale of the Cauchy loss on reprojection errors");
-  visitor.real("max_error_px", max_error_px, {0.01, 100.0}, "px", "largest reprojection error of an inlier");
+  visitor.real("max_error_px", max_error_px, {0.01, 100.0}, "px", "reprojection error of an inlier at most");
 }
 
 std::optional<PoseEstimator::Matrix12d> PoseEstimator::minimise(

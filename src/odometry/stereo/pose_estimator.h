@@ -17,14 +17,14 @@ struct PoseEstimatorParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// A point of the map and where the frame sees it.
+/// A point of the map and where it was seen in the frame.
 struct MapObservation {
   Eigen::Vector3d p_world;
   vision::StereoObservation seen;
   bool reliable = true;  ///< otherwise it is only judged by the motion that the reliable ones have
 };
 
-/// What PoseEstimator found. It must not be used unless `converged`.
+/// What PoseEstimator found; not to be used unless `converged`.
 struct PoseEstimate {
   vision::StereoView view;
   Matrix6d covariance = Matrix6d::Zero();  ///< of the left perturbation of T_camera_world: m, rad
@@ -35,9 +35,9 @@ struct PoseEstimate {
   bool converged = false;
 };
 
-/// Estimates the pose of a frame from known points: Gauss-Newton with a Cauchy loss on the pixels of the left
-/// and the right image, each at its own time. Where the stamps differ, the motion between them is estimated
-/// along with the pose; a prior of constant acceleration ties the two together.
+/// Motion-only estimation against known points: Gauss-Newton with a Cauchy loss on the pixels of the left and
+/// the right image, each at its own time. Where the stamps differ, the motion between them is estimated along
+/// with the pose; a prior of constant acceleration ties the two together.
 class PoseEstimator {
  public:
   PoseEstimator(const PoseEstimatorParams& params, const vision::StereoCalibration& calibration)

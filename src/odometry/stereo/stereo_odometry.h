@@ -67,8 +67,8 @@ class StereoOdometry : public Odometry {
   Eigen::Matrix3d R_camera_imu_;
   PoseEstimator estimator_;
   vision::RollingShutter shutter_;  ///< of the current frame
-  /// Twist along which the rows of the current frame are brought to one time, m/s and rad/s.
-  Vector6d row_twist_ = Vector6d::Zero();
+  Vector6d row_twist_ =
+      Vector6d::Zero();  ///< along which the rows of the current frame are brought to one time
 
   MotionModel motion_;
   FeatureFollower follower_;

@@ -52,8 +52,8 @@ class WindowOptimizer {
   WindowOptimizer(const WindowOptimizerParams& params, const vision::StereoCalibration& calibration)
       : params_(params), calibration_(calibration) {}
 
-  /// Refines the poses of `window`, all but the first, and the landmarks. Returns false if the observations
-  /// do not determine a step.
+  /// Refines the poses of `window`, all but the first, and the landmarks. Returns false, and leaves both as
+  /// they are, if the observations do not determine them.
   bool optimise(std::vector<WindowFrame>& window, std::vector<Landmark>& landmarks);
 
  private:

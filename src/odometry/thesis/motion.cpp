@@ -70,9 +70,8 @@ bool descend(const RefinementParams& params, const vision::StereoCalibration& ca
 void RefinementParams::describe(ParameterVisitor& visitor) {
   visitor.integer("iterations", iterations, {1, 100}, "",
                   "most Gauss-Newton iterations of each of the two passes");
-  visitor.real("huber_px", huber_px, {0.01, 100.0}, "px",
-               "larger reprojection errors count linearly instead of squared");
-  visitor.real("max_error_px", max_error_px, {0.01, 100.0}, "px", "largest reprojection error of an inlier");
+  visitor.real("huber_px", huber_px, {0.01, 100.0}, "px", "larger reprojection errors count linearly");
+  visitor.real("max_error_px", max_error_px, {0.01, 100.0}, "px", "reprojection error of an inlier at most");
 }
 
 Eigen::Vector3d meanTranslation(const Eigen::Matrix3d& R_current_previous,

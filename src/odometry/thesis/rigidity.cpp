@@ -6,8 +6,8 @@ namespace stereo_nav::odometry {
 
 void RigidityParams::describe(ParameterVisitor& visitor) {
   visitEnum(visitor, "test", test, {{"distance", Test::kDistance}, {"per_axis", Test::kPerAxis}},
-            "what two features must keep: their distance, or each component of their difference");
-  visitor.real("threshold_m", threshold_m, {1e-4, 10.0}, "m", "largest change that counts as rigid");
+            "what must not change between two features: their distance, or each axis of their difference");
+  visitor.real("threshold_m", threshold_m, {1e-4, 10.0}, "m", "largest change that still counts as rigid");
 }
 
 ConsistencyGraph buildRigidityGraph(const RigidityParams& params, const std::vector<Eigen::Vector3d>& before,

@@ -12,7 +12,7 @@ namespace stereo_nav::odometry {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Uncertainty of a rotation from the IMU: half a degree per frame, that of a serial angle module.
+/// First model of the IMU's share of the uncertainty: half a degree a frame, of a serial angle module.
 constexpr double kImuRotationSigma_rad = 0.5 * kPi / 180.0;
 
 void checkImages(const StereoFrame& frame, const vision::StereoCalibration& calibration) {
@@ -22,10 +22,9 @@ void checkImages(const StereoFrame& frame, const vision::StereoCalibration& cali
       frame.disparity.empty() || (frame.disparity.type() == CV_32FC1 && frame.disparity.size() == expected);
   if (left_fits && map_fits) return;
   std::ostringstream message;
-  message
-      << "image is " << frame.left.cols << "x" << frame.left.rows << ", disparity " << frame.disparity.cols
-      << "x" << frame.disparity.rows << ", calibration is for " << expected.width << "x" << expected.height
-      << " with 8 bit grey images and 32 bit float disparities: is camera_info of another resolution than the images?";
+  message << "image is " << frame.left.cols << "x" << frame.left.rows << ", disparity "
+          << frame.disparity.cols << "x" << frame.disparity.rows << ", calibration is for " << expected.width
+          << "x" << expected.height << " (image must be 8 bit grey, disparity 32 bit float)";
   throw std::invalid_argument(message.str());
 }
 
@@ -57,12 +56,13 @@ void ThesisParams::describe(ParameterVisitor& visitor) {
   visitSection(visitor, "refinement", refinement);
   visitEnum(visitor, "rotation", rotation,
             {{"imu", Rotation::kImu}, {"vision", Rotation::kVision}, {"auto", Rotation::kAuto}},
-            "source of the rotation between two frames; auto: the IMU if it covers both, otherwise vision");
+            "source of the rotation between two frames; auto: the IMU where it covers them, else vision");
   visitEnum(
       visitor, "disparity", disparity,
       {{"matched", DisparityUse::kMatched}, {"latest", DisparityUse::kLatest}},
-      "disparity map that is used with an image: its own, or the newest that has arrived, as in the thesis");
-  visitor.integer("min_inliers", min_inliers, {3, 1000}, "", "a frame with fewer rigid features is lost");
+      "disparity map used with an image: its own, or the newest that has arrived (the thesis' program)");
+  visitor.integer("min_inliers", min_inliers, {3, 1000}, "",
+                  "fewer rigid features are no motion: the frame is lost");
 }
 
 ThesisOdometry::ThesisOdometry(const ThesisParams& params, const vision::StereoCalibration& calibration,
@@ -192,8 +192,7 @@ void ThesisOdometry::estimate(const Tracked& tracked, const std::vector<std::siz
     result.features[tracked.report[clique[i]]].fate = FeatureReport::Fate::kInlier;
   }
   result.state = State::kTracking;
-  // Lost frames since the last tracked one have replaced the reference; the turn that the IMU measured over
-  // them is added.
+  // Lost frames in between have moved the reference on; what the IMU saw of their turn is kept.
   Eigen::Isometry3d T_tracked_reference = Eigen::Isometry3d::Identity();
   T_tracked_reference.linear() = R_tracked_reference_;
   result.T_previous_camera = T_tracked_reference * result.T_previous_camera;
@@ -247,8 +246,7 @@ void ThesisOdometry::adoptReference(const StereoFrame& frame, FrameResult& resul
     next.p_camera.push_back(lifted->p_camera);
   }
   clock.lap("detect");
-  // A dark or blocked frame does not become the reference; the one before it stays, which bridges a short
-  // gap.
+  // A dark or blocked frame is no reference: the one before it stays, so that a short gap is bridged.
   if (next.corners.size() < static_cast<std::size_t>(params_.min_inliers)) return;
   if (reference_ && result.state == State::kLost) {
     if (const auto R_current_previous = imuRotation(reference_->time_s, frame.left_time_s)) {

@@ -17,8 +17,8 @@ namespace stereo_nav::odometry {
 struct ThesisParams {
   /// Where the rotation between two frames comes from.
   enum class Rotation {
-    kImu,     ///< only the IMU, as in the thesis; a frame that it does not cover is lost
-    kVision,  ///< only the features: closed form on the clique, refined on the reprojection error
+    kImu,     ///< the IMU alone, as in the thesis; a frame that it does not cover is lost
+    kVision,  ///< the features alone: closed form on the clique, refined on the reprojection error
     kAuto,    ///< the IMU where it covers the frame, the features elsewhere
   };
   vision::CornerDetectorParams corners;
@@ -35,7 +35,7 @@ struct ThesisParams {
 
 /// The visual odometry of the thesis: FAST corners per bucket, KLT, depth from the disparity map, rigidity
 /// graph, greedy maximum clique, rotation from the IMU, translation as the mean of R a - b. Where there is no
-/// IMU, the motion comes from the clique alone.
+/// IMU the motion of the clique comes from vision alone.
 class ThesisOdometry : public Odometry {
  public:
   ThesisOdometry(const ThesisParams& params, const vision::StereoCalibration& calibration,
@@ -46,14 +46,14 @@ class ThesisOdometry : public Odometry {
   void reset() override;
 
  private:
-  /// The last image with enough corners of known depth, which the next frame is compared with.
+  /// What the next frame is measured against: the last image with enough corners of known depth.
   struct Reference {
     double time_s;
     cv::Mat image;
     std::vector<cv::Point2f> corners;       ///< px, all of known depth
     std::vector<Eigen::Vector3d> p_camera;  ///< of the corners, left optical frame, m
   };
-  /// Corners of the reference that were found and lifted in the current frame; both vectors have one order.
+  /// Corners of the reference that were found and lifted in the current frame; all vectors run in parallel.
   struct Tracked {
     std::vector<std::size_t> report;  ///< index into FrameResult::features
     std::vector<PointPair> pairs;
@@ -82,7 +82,7 @@ class ThesisOdometry : public Odometry {
   std::optional<Reference> reference_;
   Eigen::Isometry3d T_start_camera_ = Eigen::Isometry3d::Identity();  ///< pose of the last tracked frame
   Eigen::Matrix3d R_tracked_reference_ =
-      Eigen::Matrix3d::Identity();  ///< turn since that frame, measured by the IMU over lost frames
+      Eigen::Matrix3d::Identity();  ///< turn since then, over lost frames, by IMU
 };
 
 }  // namespace stereo_nav::odometry

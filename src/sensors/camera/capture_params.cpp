@@ -24,13 +24,14 @@ void CaptureParams::describe(ParameterVisitor& visitor) {
   visitor.real("stall_timeout_s", stall_timeout_s, {0.1, 60.0}, "s",
                "a camera that sends nothing for so long is opened anew");
   visitor.real("max_skew_s", max_skew_s, {0.0, 1.0}, "s",
-               "left and right images further apart in time are no pair; half the frame period loses none");
+               "left and right images further apart in time are no pair; half the frame period loses none",
+               Change::kLive);
   visitEnum(visitor, "stamps", stamps, {{"common", Stamps::Common}, {"true", Stamps::True}},
             "common: both images of a pair carry the left one's time; true: each its own");
   visitor.real("exposure_ms", exposure_ms, {-1.0, 1000.0}, "ms",
-               "exposure time of both cameras; 0: automatic, -1: as the camera is set");
+               "exposure time of both cameras; 0: automatic, -1: as the camera is set", Change::kLive);
   visitor.integer("gain", gain, {-1, 10000}, "",
-                  "gain of both cameras in the driver's units; -1: as the camera is set");
+                  "gain of both cameras in the driver's units; -1: as the camera is set", Change::kLive);
   visitor.flag("match_exposure", match_exposure,
                "the right camera follows the exposure time and gain that the left one tells");
   visitor.real("rolling_shutter_ms", rolling_shutter_ms, {0.0, 200.0}, "ms",

@@ -1,14 +1,12 @@
 // How the IMU is turned on the robot, from a recording in which the rig was turned about all axes.
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <optional>
-#include <sstream>
 
 #include "calibration/imu_camera_rotation.h"
-#include "calibration/rig_mounting.h"
 #include "core/atomic_file.h"
+#include "core/rig_file.h"
 #include "ros/package_files.h"
 #include "ros/stereo_processing.h"
 #include "stereo_nav/core/input_error.h"
@@ -63,13 +61,6 @@ std::optional<Options> parse(int argc, char** argv) {
   return options;
 }
 
-std::string readText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) throw InputError(path + ": cannot be read; --rig names the rig file");
-  return text.str();
-}
-
 /// Orientations of the left camera by vision alone: the odometry gets no IMU.
 std::vector<calibration::CameraOrientation> followCamera(const Options& options,
                                                          const ros_io::Recording& recording) {
@@ -121,10 +112,11 @@ void print(const calibration::ImuCameraRotation& found) {
 int run(int argc, char** argv) {
   const auto options = parse(argc, argv);
   if (!options) return 0;
-  const std::string rig = readText(options->rig);
-  const Eigen::Matrix3d R_base_camera = calibration::readCameraRotation(rig, options->rig);
-  // Refused before the long part begins where it cannot be written.
-  calibration::withImuRotation(rig, options->rig, Eigen::Matrix3d::Identity());
+  RigFile rig = RigFile::load(options->rig);
+  rig.requireRotation("camera");
+  const Eigen::Matrix3d R_base_camera = rig.mounting().camera.T_base_optical().linear();
+  // A file that cannot be written is refused before the long part begins.
+  RigFile(rig).setRotation("imu", Eigen::Matrix3d::Identity());
 
   const ros_io::Recording recording(options->bag, options->part);
   const auto camera = followCamera(*options, recording);
@@ -135,11 +127,13 @@ int run(int argc, char** argv) {
     return 1;
   }
   const Eigen::Matrix3d R_base_imu = R_base_camera * found.R_camera_imu;
-  const auto angles = calibration::RollPitchYaw::of(R_base_imu);
+  SensorMounting angles;
+  angles.setRotation(R_base_imu);
   std::printf("mounting/imu: roll_deg %.2f, pitch_deg %.2f, yaw_deg %.2f\n", angles.roll_deg,
               angles.pitch_deg, angles.yaw_deg);
   if (!options->dry_run) {
-    writeFileAtomically(options->rig, calibration::withImuRotation(rig, options->rig, R_base_imu));
+    rig.setRotation("imu", R_base_imu);
+    writeFileAtomically(options->rig, rig.text());
     std::printf("written into %s\n", options->rig.c_str());
   }
   return 0;

@@ -1,18 +1,16 @@
 // Prints the reference of all parameters, docs/parameters.md, from what the nodes themselves check.
 #include "stereo_nav/core/parameters.h"
 
-#include <algorithm>
-#include <cstdio>
 #include <iostream>
 #include <string>
 
+#include "core/rig_file.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "nodes/simulator/simulator_node.h"
 #include "nodes/visual_odometry/visual_odometry_params.h"
 #include "ros/capture_setup.h"
-#include "ros/rig.h"
 #include "ros/stereo_processing.h"
 #include "stereo_nav/odometry/method/odometry_config.h"
 #include "tools/common/program.h"
@@ -39,60 +37,59 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
 }
 
 template <class Params>
-void printTable(const Params& params, const std::vector<std::string>& live = {}) {
+void printTable(const Params& params) {
   std::cout << "\n| name | type | default | range | unit | meaning |\n|---|---|---|---|---|---|\n";
   for (ParameterDoc doc : documentParameters(params)) {
     replaceAll(doc.range, " | ", ", ");
-    const bool is_live = std::find(live.begin(), live.end(), doc.name) != live.end();
     std::cout << "| `" << doc.name << "` | " << doc.type << " | " << doc.default_value << " | " << doc.range
-              << " | " << doc.unit << " | " << doc.doc << (is_live ? ". **Live**" : "") << " |\n";
+              << " | " << doc.unit << " | " << doc.doc << (doc.live ? ". **Live**" : "") << " |\n";
   }
 }
 
+void printHeading(const std::string& title, const std::string& text = "") {
+  std::cout << "\n" << title << "\n" << text << (text.empty() ? "" : "\n");
+}
+
 void printSensors() {
-  std::cout
-      << "\n## The rig file\nSections `cameras` (as `stereo_capture`), `imu` (as `imu_bridge`), `disparity` "
-         "(as "
-         "`stereo_image_proc/disparity`), all below, and `mounting`: where the sensors sit in `base_link`.\n";
-  printTable(ros_io::Mounting());
-  std::cout << "\n## `stereo_capture`\nBeside these the maps `controls`, `left.controls` and "
-               "`right.controls`: any V4L2 "
-               "control by its name, a whole number, true or false; and `disparity_config`, the file of the "
-               "next but "
-               "one table.\n";
-  printTable(ros_io::StereoCaptureParams(), {"max_skew_s", "exposure_ms", "gain"});
-  std::cout << "\n## `imu_bridge`\n";
-  printTable(ros_io::ImuBridgeParams(), {"tilt_stddev_rad", "yaw_stddev_rad", "angular_velocity_stddev_rad_s",
-                                         "linear_acceleration_stddev_m_s2"});
-  std::cout << "\n## `stereo_image_proc/disparity`\n`config/disparity.yaml`, also read by `evaluate`. All of "
-               "them can be "
-               "changed live by the nodelet's own dynamic_reconfigure.\n";
+  printHeading("## The rig file",
+               "Sections `cameras` (as `stereo_capture`), `imu` (as `imu_bridge`), `disparity` (as "
+               "`stereo_image_proc/disparity`), all below, and `mounting`: where the sensors sit in "
+               "`base_link`.");
+  printTable(Mounting());
+  printHeading(
+      "## `stereo_capture`",
+      "Beside these the maps `controls`, `left.controls` and `right.controls`: any V4L2 control by "
+      "its name, a whole number, true or false; and `disparity_config`, the file of the next but one "
+      "table.");
+  printTable(ros_io::StereoCaptureParams());
+  printHeading("## `imu_bridge`");
+  printTable(ros_io::ImuBridgeParams());
+  printHeading("## `stereo_image_proc/disparity`",
+               "`config/disparity.yaml`, also read by `evaluate`. All of them can be changed live by the "
+               "nodelet's own dynamic_reconfigure.");
   printTable(ros_io::DisparityParams());
 }
 
 void printOdometry() {
-  std::cout << "\n## `visual_odometry`, node and nodelet\n";
-  printTable(nodes::VisualOdometryParams(),
-             {"publish_tf", "path_spacing_m", "input_timeout_s", "uncertainty.min_translation_sigma_m",
-              "uncertainty.min_rotation_sigma_rad", "uncertainty.lost_speed_m_s",
-              "uncertainty.lost_turn_rate_rad_s"});
-  std::cout << "\n### The odometry's own\n`config/vo.yaml` and files like it (`~config`), `~vo` on the "
-               "parameter server, "
-               "also read by `evaluate`.\n";
+  printHeading("## `visual_odometry`, node and nodelet");
+  printTable(nodes::VisualOdometryParams());
+  printHeading("### The odometry's own",
+               "`config/vo.yaml` and files like it (`~config`), `~vo` on the parameter server, also read by "
+               "`evaluate`.");
   printTable(odometry::OdometryConfig());
 }
 
 void printOthers() {
-  std::cout << "\n## `rig_transforms`\nPublishes the mounting of the rig file `~rig` as static transforms "
-               "and checks all "
-               "of the file.\n";
+  printHeading("## `rig_transforms`",
+               "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
+               "file.");
   printTable(nodes::RigTransformsParams());
-  std::cout << "\n## `recorder`\n";
+  printHeading("## `recorder`");
   printTable(nodes::RecorderParams());
-  std::cout
-      << "\n## `simulator`\nBeside these `rig`, whose calibration and mounting the simulated sensors have, "
-         "and "
-         "`disparity_config`. `rosrun stereo_nav simulate --parameters` lists what a scenario may hold.\n";
+  printHeading(
+      "## `simulator`",
+      "Beside these `rig`, whose calibration and mounting the simulated sensors have, and "
+      "`disparity_config`. `rosrun stereo_nav simulate --parameters` lists what a scenario may hold.");
   printTable(nodes::SimulatorParams());
 }
 

@@ -28,7 +28,7 @@ struct Outer {
     visitor.flag("enabled", enabled, "whether it runs");
     visitEnum(visitor, "method", method, {{"distance", Method::kDistance}, {"per_axis", Method::kPerAxis}},
               "test");
-    visitor.text("frame", frame, "name of a frame");
+    visitor.text("frame", frame, "name of a frame", Change::kLive);
   }
 };
 
@@ -87,6 +87,8 @@ TEST(Parameters, DocumentationListsEveryFieldWithItsDefault) {
   EXPECT_EQ(docs[0].range, "1 to 255");
   EXPECT_EQ(docs[3].default_value, "distance");
   EXPECT_EQ(docs[4].type, "string");
+  EXPECT_FALSE(docs[0].live);
+  EXPECT_TRUE(docs[4].live);
 }
 
 }  // namespace

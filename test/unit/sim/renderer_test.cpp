@@ -93,7 +93,7 @@ double edgeColumn(const cv::Mat& image, int row) {
 Scenario edgeScenario() {
   Scenario scenario = cleanScenario();
   ObjectParams wall = wallAhead(3.0, TextureKind::kPlain);
-  wall.y_m = 4.0 + RigParams().camera_y_m;
+  wall.y_m = 4.0 + RigParams().camera.y_m;
   wall.material.contrast = 0.0;
   wall.material.brightness = 0.8;
   scenario.scene.objects = {wall};

@@ -31,7 +31,7 @@ inline ObjectParams wallAhead(double distance_m, TextureKind texture) {
   wall.length_m = 0.2;
   wall.width_m = 8.0;
   wall.height_m = 4.0;
-  wall.x_m = RigParams().camera_x_m + distance_m + 0.5 * wall.length_m;
+  wall.x_m = RigParams().camera.x_m + distance_m + 0.5 * wall.length_m;
   wall.material.texture = texture;
   return wall;
 }

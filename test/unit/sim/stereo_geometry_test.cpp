@@ -23,7 +23,7 @@ std::vector<double> disparityErrors(double distance_m) {
   const cv::Mat left_image = rectify(left, simulation.image(Side::kLeft, 0));
   const cv::Mat right_image = rectify(right, simulation.image(Side::kRight, 0));
   const double analytic = -right.P(0, 3) / distance_m;
-  const int floor_row = static_cast<int>(left.P(1, 2) + left.P(1, 1) * scenario.rig.camera_z_m / distance_m);
+  const int floor_row = static_cast<int>(left.P(1, 2) + left.P(1, 1) * scenario.rig.camera.z_m / distance_m);
 
   cv::Mat inside = cv::Mat::zeros(left_image.size(), CV_8UC1);
   inside(cv::Rect(70, 20, 230, std::min(floor_row, 230) - 35)) = 255;

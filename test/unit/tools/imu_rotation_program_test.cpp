@@ -2,14 +2,13 @@
 // a real recording.
 #include <gtest/gtest.h>
 #include <unistd.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "calibration/rig_mounting.h"
+#include "core/rig_file.h"
 #include "stereo_nav/ros/recording.h"
 #include "support/command.h"
 #include "support/wiggle_bag.h"
@@ -49,12 +48,12 @@ class ImuRotationProgramTest : public ::testing::Test {
 
   /// Angle between what the rig file says and the truth.
   static double errorOf(const std::string& rig_file, const Eigen::Matrix3d& R_base_imu) {
-    const YAML::Node imu = YAML::LoadFile(rig_file)["mounting"]["imu"];
-    calibration::RollPitchYaw angles;
-    angles.roll_deg = imu["roll_deg"].as<double>();
-    angles.pitch_deg = imu["pitch_deg"].as<double>();
-    angles.yaw_deg = imu["yaw_deg"].as<double>();
-    return Eigen::AngleAxisd(angles.rotation() * R_base_imu.transpose()).angle() / kDegree;
+    const Eigen::Isometry3d T_base_sensor = RigFile::load(rig_file).mounting().imu.T_base_sensor();
+    return Eigen::AngleAxisd(T_base_sensor.linear() * R_base_imu.transpose()).angle() / kDegree;
+  }
+
+  static Eigen::Matrix3d cameraRotation() {
+    return RigFile::parse(kRig, "rig").mounting().camera.T_base_optical().linear();
   }
 
   static Eigen::Matrix3d askew() {
@@ -74,7 +73,7 @@ TEST_F(ImuRotationProgramTest, AKnownMountingIsWrittenIntoTheRigFile) {
   wiggle.R_camera_imu = askew();
   wiggle.imu_offset_s = 0.03;
   test::writeWiggleBag(file("wiggle.bag"), wiggle);
-  const Eigen::Matrix3d R_base_imu = calibration::readCameraRotation(kRig, "rig") * wiggle.R_camera_imu;
+  const Eigen::Matrix3d R_base_imu = cameraRotation() * wiggle.R_camera_imu;
 
   const auto dry = calibrate(file("wiggle.bag") + " --rig " + file("rig.yaml") + " --dry-run");
   ASSERT_EQ(dry.status, 0) << dry.output;
@@ -98,9 +97,7 @@ TEST_F(ImuRotationProgramTest, AModuleThatSendsAnglesDoesAsWell) {
   test::writeWiggleBag(file("angles.bag"), wiggle);
   const auto result = calibrate(file("angles.bag") + " --rig " + file("rig.yaml"));
   ASSERT_EQ(result.status, 0) << result.output;
-  EXPECT_LT(errorOf(file("rig.yaml"), calibration::readCameraRotation(kRig, "rig") * wiggle.R_camera_imu),
-            0.3)
-      << result.output;
+  EXPECT_LT(errorOf(file("rig.yaml"), cameraRotation() * wiggle.R_camera_imu), 0.3) << result.output;
 }
 
 TEST_F(ImuRotationProgramTest, AMotionAboutOneAxisIsRefusedAndNothingIsWritten) {
@@ -115,7 +112,7 @@ TEST_F(ImuRotationProgramTest, AMotionAboutOneAxisIsRefusedAndNothingIsWritten) 
 }
 
 TEST_F(ImuRotationProgramTest, InputThatCannotBeUsedIsRefused) {
-  std::ofstream(file("empty.yaml")) << "capture: {}\n";
+  std::ofstream(file("empty.yaml")) << "cameras: {}\n";
   const auto expectRefusal = [](const std::string& arguments, const std::string& part) {
     const auto result = calibrate(arguments);
     EXPECT_EQ(result.status, 2) << result.output;
@@ -141,8 +138,7 @@ TEST_F(ImuRotationProgramTest, ARealRecordingGivesItsKnownExtrinsics) {
   const auto T_imu_camera =
       ros_io::Recording(file("mh01.bag"), {}).transform("base_link", "camera_left_optical");
   ASSERT_TRUE(T_imu_camera);  // base_link is EuRoC's body, the IMU
-  const Eigen::Matrix3d R_base_imu =
-      calibration::readCameraRotation(kRig, "rig") * T_imu_camera->linear().transpose();
+  const Eigen::Matrix3d R_base_imu = cameraRotation() * T_imu_camera->linear().transpose();
   const double error_deg = errorOf(file("rig.yaml"), R_base_imu);
   std::cout << result.output << "error " << error_deg << " deg\n";
   EXPECT_LT(error_deg, 1.0);

@@ -126,26 +126,6 @@ TEST_F(ThesisOdometryTest, ResetStartsAnew) {
   EXPECT_TRUE(result.T_start_camera.isApprox(Eigen::Isometry3d::Identity()));
 }
 
-TEST_F(ThesisOdometryTest, AfterAResetARunEqualsAFirstRunToTheLastBit) {
-  ThesisOdometry first({}, calibration, Eigen::Matrix3d::Identity());
-  ThesisOdometry other({}, calibration, Eigen::Matrix3d::Identity());
-  auto forgotten = course(5);
-  forgotten[3].left.setTo(3);
-  forgotten[4].disparity.setTo(-1.0F);
-  drive(other, forgotten, true);
-  other.reset();
-  for (const StereoFrame& frame : course(5)) {
-    const FrameResult one = first.process(frame);
-    const FrameResult again = other.process(frame);
-    EXPECT_EQ(one.state, again.state);
-    EXPECT_EQ(one.T_start_camera.matrix(), again.T_start_camera.matrix());
-    EXPECT_EQ(one.motion_covariance, again.motion_covariance);
-    EXPECT_EQ(one.keyframe_id, again.keyframe_id);
-    ASSERT_EQ(one.features.size(), again.features.size());
-    for (std::size_t i = 0; i < one.features.size(); ++i) EXPECT_EQ(one.features[i].id, again.features[i].id);
-  }
-}
-
 TEST_F(ThesisOdometryTest, TwoRunsAreIdenticalToTheBit) {
   ThesisOdometry first({}, calibration, Eigen::Matrix3d::Identity());
   ThesisOdometry second({}, calibration, Eigen::Matrix3d::Identity());

@@ -1,48 +1,18 @@
-#include "ros/rig.h"
+#include "ros/capture_setup.h"
 
 #include <gtest/gtest.h>
 
-#include "ros/capture_setup.h"
-#include "stereo_nav/core/parameters.h"
+#include "core/rig_file.h"
 
 namespace stereo_nav {
 namespace {
 
-TEST(Rig, OpticalAxesOfALevelCamera) {
-  ros_io::Mounting mounting;
-  mounting.camera.z_m = 0.283;
-  const Eigen::Isometry3d T = mounting.T_base_optical();
-  EXPECT_TRUE((T * Eigen::Vector3d(0, 0, 1)).isApprox(Eigen::Vector3d(1, 0, 0.283)));   // ahead
-  EXPECT_TRUE((T * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(0, -1, 0.283)));  // to the right
-  EXPECT_TRUE((T * Eigen::Vector3d(0, 1, 0)).isApprox(Eigen::Vector3d(0, 0, -0.717)));  // down
-}
-
-TEST(Rig, AnglesTurnAboutFixedAxesRollFirst) {
-  ros_io::SensorMounting pose;
-  pose.roll_deg = 90.0;
-  pose.yaw_deg = 90.0;
-  // y goes up by the roll and stays there; x goes to the left by the yaw.
-  EXPECT_TRUE(
-      (pose.T_base_sensor().linear() * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
-  EXPECT_TRUE(
-      (pose.T_base_sensor().linear() * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
-}
-
-TEST(Rig, TheOneInThePackageIsValidAndKeepsTheThesisMounting) {
-  const std::string path = std::string(STEREO_NAV_SOURCE_DIR) + "/config/rigs/thesis.yaml";
-  const ros_io::Mounting mounting = ros_io::loadMounting(path);
-  EXPECT_EQ(mounting.camera.z_m, 0.283);
+TEST(CaptureSetup, TheRigFileInThePackageIsValid) {
+  const RigFile rig = RigFile::load(std::string(STEREO_NAV_SOURCE_DIR) + "/config/rigs/thesis.yaml");
   ros_io::CaptureSetup setup;
-  setup.read({{ros_io::loadRigSection(path, ros_io::rig_sections::kCameras), path}});
+  setup.read({{rig.section(rig_sections::kCameras), rig.sectionName(rig_sections::kCameras)}});
   EXPECT_EQ(setup.params.capture.width, 320);
   EXPECT_FALSE(setup.toConfig().right.device.empty());
-}
-
-TEST(Rig, PathsOfUrls) {
-  EXPECT_EQ(ros_io::pathOfUrl("file:///etc/left.yaml"), "/etc/left.yaml");
-  EXPECT_EQ(ros_io::pathOfUrl("/etc/left.yaml"), "/etc/left.yaml");
-  EXPECT_THROW(ros_io::pathOfUrl("http://example.org/left.yaml"), ParameterError);
-  EXPECT_THROW(ros_io::pathOfUrl("package://no_such_package_here/left.yaml"), ParameterError);
 }
 
 TEST(CaptureSetup, LaterSourcesGoBeforeEarlierOnes) {

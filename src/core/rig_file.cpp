@@ -1,0 +1,165 @@
+#include "core/rig_file.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "stereo_nav/core/parameters.h"
+
+namespace stereo_nav {
+namespace {
+
+constexpr double kRadPerDeg = M_PI / 180.0;
+constexpr std::array<const char*, 3> kAngles = {"roll_deg", "pitch_deg", "yaw_deg"};
+
+void refuseUnknownSections(const YAML::Node& rig, const std::string& source) {
+  for (const auto& entry : rig) {
+    const auto name = entry.first.as<std::string>();
+    bool known = false;
+    std::string names;
+    for (const char* section :
+         {rig_sections::kCameras, rig_sections::kImu, rig_sections::kMounting, rig_sections::kDisparity}) {
+      known = known || name == section;
+      names += (names.empty() ? "" : " | ") + std::string(section);
+    }
+    if (!known) throw ParameterError(source + ": unknown section " + name + "; a rig has: " + names);
+  }
+}
+
+/// Where a node's text begins in the file.
+std::size_t positionOf(const std::string& text, const YAML::Mark& mark) {
+  std::size_t line_start = 0;
+  for (int line = 0; line < mark.line; ++line) line_start = text.find('\n', line_start) + 1;
+  return line_start + static_cast<std::size_t>(mark.column);
+}
+
+std::string toText(double angle_deg) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", angle_deg);
+  return std::string(text) == "-0.00" ? "0.00" : text;
+}
+
+}  // namespace
+
+void SensorMounting::describe(ParameterVisitor& visitor) {
+  const Range<double> near{-100.0, 100.0};
+  const Range<double> turn{-360.0, 360.0};
+  visitor.real("x_m", x_m, near, "m", "forward of base_link's origin");
+  visitor.real("y_m", y_m, near, "m", "to the left of it");
+  visitor.real("z_m", z_m, near, "m", "above it");
+  visitor.real("roll_deg", roll_deg, turn, "deg", "about base_link's x axis, applied first");
+  visitor.real("pitch_deg", pitch_deg, turn, "deg", "about its y axis, then; positive looks down");
+  visitor.real("yaw_deg", yaw_deg, turn, "deg", "about its z axis, last; positive turns left");
+}
+
+Eigen::Isometry3d SensorMounting::T_base_sensor() const {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() << x_m, y_m, z_m;
+  T.linear() = (Eigen::AngleAxisd(yaw_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()) *
+                Eigen::AngleAxisd(pitch_deg * kRadPerDeg, Eigen::Vector3d::UnitY()) *
+                Eigen::AngleAxisd(roll_deg * kRadPerDeg, Eigen::Vector3d::UnitX()))
+                   .toRotationMatrix();
+  return T;
+}
+
+Eigen::Isometry3d SensorMounting::T_base_optical() const {
+  Eigen::Matrix3d R_body_optical;
+  R_body_optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  Eigen::Isometry3d T = T_base_sensor();
+  T.linear() = T.linear() * R_body_optical;
+  return T;
+}
+
+void SensorMounting::setRotation(const Eigen::Matrix3d& R_base_sensor) {
+  const Eigen::Matrix3d& R = R_base_sensor;
+  constexpr double kVertical = 1e-6;  // horizontal part of the sensor's x axis, which is 1 long
+  const double level = std::hypot(R(0, 0), R(1, 0));
+  pitch_deg = std::atan2(-R(2, 0), level) / kRadPerDeg;
+  if (level < kVertical) {
+    roll_deg = 0.0;
+    yaw_deg = std::atan2(-R(0, 1), R(1, 1)) / kRadPerDeg;
+  } else {
+    roll_deg = std::atan2(R(2, 1), R(2, 2)) / kRadPerDeg;
+    yaw_deg = std::atan2(R(1, 0), R(0, 0)) / kRadPerDeg;
+  }
+}
+
+void Mounting::describe(ParameterVisitor& visitor) {
+  visitSection(visitor, "camera", camera);
+  visitSection(visitor, "imu", imu);
+}
+
+RigFile::RigFile(std::string text, std::string source)
+    : text_(std::move(text)), source_(std::move(source)), root_(parseYaml(text_, source_)) {
+  if (!root_.IsMap()) {
+    throw ParameterError(source_ + ": a rig file holds sections, e.g. `mounting:`; this one holds none");
+  }
+  refuseUnknownSections(root_, source_);
+}
+
+RigFile RigFile::load(const std::string& path) {
+  return {readTextFile(path), path};
+}
+
+RigFile RigFile::parse(const std::string& text, const std::string& source) {
+  return {text, source};
+}
+
+YAML::Node RigFile::section(const std::string& name) const {
+  const YAML::Node found = root_[name];
+  return found.IsDefined() ? found : YAML::Node();
+}
+
+std::string RigFile::sectionName(const std::string& name) const {
+  return source_ + ": " + name;
+}
+
+Mounting RigFile::mounting() const {
+  Mounting mounting;
+  readParameters(section(rig_sections::kMounting), sectionName(rig_sections::kMounting), mounting);
+  return mounting;
+}
+
+/// `mounting/sensor/name` of the file, which must be a number.
+YAML::Node RigFile::numberNode(const std::string& sensor, const std::string& name) const {
+  const std::string full_name = "mounting/" + sensor + "/" + name;
+  const std::string expected =
+      "; expected is a rig file with `mounting: {" + sensor +
+      ": {x_m: 0.0, y_m: 0.0, z_m: 0.0, roll_deg: 0.0, pitch_deg: 0.0, yaw_deg: 0.0}}`";
+  const YAML::Node mounting = section(rig_sections::kMounting);
+  const YAML::Node pose = mounting.IsMap() ? mounting[sensor] : YAML::Node();
+  const YAML::Node node = pose && pose.IsMap() ? pose[name] : YAML::Node();
+  if (!node || !node.IsScalar()) throw ParameterError(source_ + ": " + full_name + " is missing" + expected);
+  double value = 0.0;
+  if (!YAML::convert<double>::decode(node, value) || !std::isfinite(value)) {
+    throw ParameterError(source_ + ": " + full_name + " is '" + node.Scalar() + "', no number" + expected);
+  }
+  return node;
+}
+
+void RigFile::requireRotation(const std::string& sensor) const {
+  for (const char* angle : kAngles) numberNode(sensor, angle);
+}
+
+void RigFile::setRotation(const std::string& sensor, const Eigen::Matrix3d& R_base_sensor) {
+  SensorMounting mounting;
+  mounting.setRotation(R_base_sensor);
+  requireRotation(sensor);
+  setNumber(sensor, kAngles[0], toText(mounting.roll_deg));
+  setNumber(sensor, kAngles[1], toText(mounting.pitch_deg));
+  setNumber(sensor, kAngles[2], toText(mounting.yaw_deg));
+}
+
+void RigFile::setNumber(const std::string& sensor, const std::string& name, const std::string& value) {
+  const YAML::Node node = numberNode(sensor, name);
+  const std::size_t position = positionOf(text_, node.Mark());
+  if (text_.compare(position, node.Scalar().size(), node.Scalar()) != 0) {
+    throw ParameterError(source_ + ": mounting/" + sensor + "/" + name +
+                         " must be a plain number, without quotes, tags or anchors, to be replaced");
+  }
+  text_.replace(position, node.Scalar().size(), value);
+  root_.reset(parseYaml(text_, source_));  // assignment would change the nodes of copies of this object, too
+}
+
+}  // namespace stereo_nav
