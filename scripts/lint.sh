@@ -132,6 +132,7 @@ check python python_check
 check machine_paths path_check
 check floors floor_check
 check sizes size_check
+check doxygen doxygen_check
 check links link_check
 check messages message_check
 check commands command_check

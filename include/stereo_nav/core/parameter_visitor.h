@@ -17,8 +17,8 @@ class ParameterError : public std::runtime_error {
 /// Both ends are allowed values.
 template <class T>
 struct Range {
-  T min;
-  T max;
+  T min;  ///< smallest allowed value
+  T max;  ///< largest allowed value
 };
 
 /// When a new value of a parameter takes effect.
@@ -29,10 +29,10 @@ enum class Change {
 
 /// What a parameter struct tells about a field beside its value and range.
 struct ParameterField {
-  std::string name;
+  std::string name;  ///< as in configuration files, without its sections
   std::string unit;  ///< empty for pure numbers
-  std::string doc;
-  Change change;
+  std::string doc;   ///< its meaning, for the documentation
+  Change change;     ///< whether it may change on a running node
 };
 
 /// What every parameter struct tells about each of its fields, once, in its `describe(ParameterVisitor&)`.
@@ -42,13 +42,16 @@ class ParameterVisitor {
  public:
   virtual ~ParameterVisitor() = default;
 
+  /// Yes or no.
   void flag(const std::string& name, bool& value, const std::string& doc, Change change = Change::kAtStart) {
     visit({name, "", doc, change}, value);
   }
+  /// A whole number.
   void integer(const std::string& name, int& value, Range<int> range, const std::string& unit,
                const std::string& doc, Change change = Change::kAtStart) {
     visit({name, unit, doc, change}, value, range);
   }
+  /// A number.
   void real(const std::string& name, double& value, Range<double> range, const std::string& unit,
             const std::string& doc, Change change = Change::kAtStart) {
     visit({name, unit, doc, change}, value, range);
@@ -63,7 +66,9 @@ class ParameterVisitor {
               const std::string& doc, Change change = Change::kAtStart) {
     visit({name, "", doc, change}, index, names);
   }
+  /// The fields that follow, up to leaveSection(), are in the section `name`.
   virtual void enterSection(const std::string& name) { sections_.push_back(name); }
+  /// Ends the newest section.
   virtual void leaveSection() { sections_.pop_back(); }
 
  protected:

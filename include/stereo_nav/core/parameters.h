@@ -17,8 +17,8 @@ struct ParameterDoc {
   std::string default_value;  ///< the value in the struct when it was described
   std::string range;          ///< e.g. `1 to 255`
   std::string unit;           ///< empty for pure numbers
-  std::string doc;
-  bool live;  ///< dynamic_reconfigure can change it on the running node
+  std::string doc;            ///< its meaning
+  bool live;                  ///< dynamic_reconfigure can change it on the running node
 };
 
 namespace internal {
