@@ -132,13 +132,20 @@ double variance(const YAML::Node& sensor, const std::string& key) {
 }
 
 ImuTrack readImu(const std::string& folder) {
+  const std::string data_path = folder + "/data.csv";
+  const auto rows = fs::exists(data_path) ? readTextTable(data_path) : std::vector<TextRow>();
+  if (rows.empty()) {
+    throw InputError(folder +
+                     ": holds no IMU data (data.csv is missing or empty); copy the folder again, or import "
+                     "without the IMU: --no-imu");
+  }
   const std::string sensor_path = folder + "/sensor.yaml";
   const YAML::Node sensor = loadYamlFile(sensor_path);
   const Eigen::Matrix3d R_body_imu = readBodyPose(sensor_path, sensor).linear();
   ImuTrack imu;
   imu.angular_velocity_variance = variance(sensor, "gyroscope_noise_density");
   imu.linear_acceleration_variance = variance(sensor, "accelerometer_noise_density");
-  for (const auto& row : readTextTable(folder + "/data.csv")) {
+  for (const auto& row : rows) {
     ImuReading reading;
     reading.stamp = stampOf(row, imu.readings.empty() ? ros::Time() : imu.readings.back().stamp);
     reading.angular_velocity = R_body_imu * Eigen::Vector3d(row.number(1), row.number(2), row.number(3));
@@ -169,7 +176,7 @@ std::vector<CameraPose> readGroundTruth(const std::string& path, const Eigen::Is
 
 }  // namespace
 
-Sequence readEuroc(const std::string& given_folder) {
+Sequence readEuroc(const std::string& given_folder, bool with_imu) {
   const bool below_mav0 = fs::exists(given_folder + "/mav0/cam0");
   const std::string folder = below_mav0 ? given_folder + "/mav0" : given_folder;
   for (const char* camera : {"/cam0", "/cam1"}) {
@@ -199,6 +206,7 @@ Sequence readEuroc(const std::string& given_folder) {
   } else {
     sequence.notes.push_back("no state_groundtruth_estimate0: the recording has no ground truth");
   }
+  if (!with_imu) return sequence;
   if (fs::exists(folder + "/imu0")) {
     sequence.imu = readImu(folder + "/imu0");
   } else {

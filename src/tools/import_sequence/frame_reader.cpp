@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "stereo_nav/core/input_error.h"
-#include "stereo_nav/ros/conversions.h"
+#include "tools/import_sequence/image_names.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -103,7 +103,7 @@ std::vector<std::string> listImages(const std::string& folder) {
   }
   if (error) throw InputError(folder + ": cannot be read: " + error.message());
   if (paths.empty()) throw InputError(folder + ": holds no image");
-  std::sort(paths.begin(), paths.end());
+  std::sort(paths.begin(), paths.end(), naturalLess);
   return paths;
 }
 

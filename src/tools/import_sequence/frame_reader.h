@@ -30,7 +30,7 @@ std::unique_ptr<FrameReader> readVideo(const std::string& path);
 /// Frames per second that a video states. Throws InputError when it states none.
 double videoRate(const std::string& path);
 
-/// Image files of a folder in order of their names. Throws InputError when there is none.
+/// Image files of a folder in the natural order of their names. Throws InputError when there is none.
 std::vector<std::string> listImages(const std::string& folder);
 
 }  // namespace stereo_nav::tools

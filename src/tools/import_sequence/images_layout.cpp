@@ -1,12 +1,10 @@
-#include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "core/text_table.h"
 #include "stereo_nav/core/input_error.h"
-#include "stereo_nav/ros/conversions.h"
+#include "tools/import_sequence/image_stamps.h"
 #include "tools/import_sequence/rectified_camera.h"
 #include "tools/import_sequence/sequence.h"
 
@@ -14,8 +12,6 @@ namespace stereo_nav::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kDefaultRate_hz = 10.0;
 
 /// calib.txt: `key value` lines.
 class CalibrationFile {
@@ -65,23 +61,9 @@ std::string findVideo(const std::string& folder, const std::string& letter, cons
 
 CameraTrack readTrack(std::unique_ptr<FrameReader> frames, double rate_hz) {
   CameraTrack track;
-  for (std::size_t i = 0; i < frames->size(); ++i) {
-    ros::Time stamp;
-    stamp.fromNSec(
-        static_cast<std::uint64_t>(std::llround((kStartTime_s + static_cast<double>(i) / rate_hz) * 1e9)));
-    track.stamps.push_back(stamp);
-  }
+  for (std::size_t i = 0; i < frames->size(); ++i) track.stamps.push_back(stampOfIndex(i, rate_hz));
   track.frames = std::move(frames);
   return track;
-}
-
-void readFolders(const std::string& folder, const CalibrationFile& calibration, Sequence& sequence) {
-  const double rate_hz = calibration.has("fps") ? calibration.positive("fps") : kDefaultRate_hz;
-  if (!calibration.has("fps")) {
-    sequence.notes.push_back("calib.txt has no line 'fps': the images are stamped at 10 Hz");
-  }
-  sequence.left = readTrack(readImageFiles(listImages(folder + "/left")), rate_hz);
-  sequence.right = readTrack(readImageFiles(listImages(folder + "/right")), rate_hz);
 }
 
 void readVideos(const std::string& folder, const CalibrationFile& calibration, Sequence& sequence) {
@@ -106,7 +88,9 @@ Sequence readImages(const std::string& folder) {
   const double baseline_m = calibration.positive("baseline");
   Sequence sequence;
   if (fs::is_directory(folder + "/left") && fs::is_directory(folder + "/right")) {
-    readFolders(folder, calibration, sequence);
+    std::optional<double> rate_hz;
+    if (calibration.has("fps")) rate_hz = calibration.positive("fps");
+    readImageFolders(folder, rate_hz, sequence);
   } else {
     readVideos(folder, calibration, sequence);
   }

@@ -15,6 +15,7 @@
 #include "tools/common/program.h"
 #include "tools/import_sequence/derived_sequence.h"
 #include "tools/import_sequence/sequence_bag.h"
+#include "tools/import_sequence/sixteen_bits.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -29,7 +30,8 @@ constexpr const char* kUsage =
     "  kitti   DIR/image_0, image_1, calib.txt, times.txt, poses.txt (KITTI odometry); time 0 becomes 1000 "
     "s\n"
     "  images  DIR/left, right with images, or two videos *L.mp4, *R.mp4 (*left, *right), rectified;\n"
-    "          calib.txt with the lines fx, fy, cx, cy (px), baseline (m) and, if need be, fps\n\n"
+    "          calib.txt with the lines fx, fy, cx, cy (px), baseline (m) and, if need be, fps;\n"
+    "          pairs have equal names; stamps come from times.txt, from names that are dates, or from fps\n\n"
     "base_link is the IMU (the default for euroc) or the left camera with x forward, y left, z up (REP-103;\n"
     "the default for the others). Ground truth is given of base_link.\n\nOptions";
 
@@ -105,7 +107,7 @@ bool parse(int argc, char** argv, Arguments& arguments) {
 }
 
 Sequence readSequence(const Arguments& arguments) {
-  if (arguments.format == "euroc") return readEuroc(arguments.folder);
+  if (arguments.format == "euroc") return readEuroc(arguments.folder, arguments.bag.imu);
   return arguments.format == "kitti" ? readKitti(arguments.folder) : readImages(arguments.folder);
 }
 
@@ -120,6 +122,7 @@ int run(int argc, char** argv) {
   if (!parse(argc, argv, arguments)) return 0;
   { const AtomicFile writable(arguments.output); }  // before the work, not after it
   Sequence sequence = readSequence(arguments);
+  useFullRange(sequence);
   if (arguments.reverse) reverse(sequence);
   if (arguments.mirror) mirror(sequence);
   for (const auto& note : sequence.notes) std::fprintf(stderr, "import_sequence: note: %s\n", note.c_str());

@@ -5,6 +5,7 @@
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/trajectory.h"
 #include "stereo_nav/ros/conversions.h"
+#include "tools/import_sequence/image_names.h"
 #include "tools/import_sequence/rectified_camera.h"
 #include "tools/import_sequence/sequence.h"
 
@@ -40,6 +41,25 @@ RectifiedCamera geometry(const std::vector<double>& P, const cv::Mat& image) {
   return {image.cols, image.rows, P[0], P[5], P[2], P[6], P[3] == 0.0 ? 0.0 : -P[3] / P[0]};
 }
 
+/// Both folders must hold images of the same names: that is how KITTI says which belong together.
+void checkNames(const std::string& folder) {
+  const NamedPairs pairs = pairByName(listImages(folder + "/image_0"), listImages(folder + "/image_1"));
+  if (pairs.unpaired.empty()) return;
+  throw InputError(folder + ": these images have no partner of the same name in the other camera's folder: " +
+                   listOf(pairs.unpaired) + "; copy the missing files, or remove the pair and its lines in " +
+                   "times.txt and poses.txt");
+}
+
+void checkFolders(const std::string& folder) {
+  namespace fs = std::filesystem;
+  if (fs::is_directory(folder + "/image_0") && fs::is_directory(folder + "/image_1")) return;
+  const bool has_colour = fs::is_directory(folder + "/image_2") && fs::is_directory(folder + "/image_3");
+  throw InputError(folder + ": has no folders image_0 and image_1" +
+                   (has_colour ? "; image_2 and image_3 are the colour cameras, which are another pair than "
+                                 "that of P0, P1 and the poses: download the grey images, too"
+                               : ", as KITTI odometry has; a drive of KITTI raw needs --format kitti_raw"));
+}
+
 }  // namespace
 
 Sequence readKitti(const std::string& folder) {
@@ -52,9 +72,11 @@ Sequence readKitti(const std::string& folder) {
                      ": P0 must have no offset and P1 must lie to the right of it (P1[3] < 0), they have " +
                      std::to_string(P0[3]) + " and " + std::to_string(P1[3]));
   }
+  checkFolders(folder);
   Sequence sequence;
   sequence.left = readCamera(folder + "/image_0", times_s);
   sequence.right = readCamera(folder + "/image_1", times_s);
+  checkNames(folder);
   const cv::Mat image = sequence.left.frames->read(0);
   sequence.left.info = toCameraInfo(geometry(P0, image));
   sequence.right.info = toCameraInfo(geometry(P1, image));

@@ -54,7 +54,8 @@ constexpr double kStartTime_s = 1000.0;
 /// EuRoC/ASL: `DIR/cam0`, `cam1` with `data.csv`, `data/` and `sensor.yaml`, and if they exist `imu0` and
 /// `state_groundtruth_estimate0` (all possibly below `mav0/`). Images stay raw; the camera_infos rectify with
 /// cv::stereoRectify (zero disparity at infinity, alpha 0). Body = IMU; the world is the layout's, z up.
-Sequence readEuroc(const std::string& folder);
+/// Without `with_imu`, imu0 is not read.
+Sequence readEuroc(const std::string& folder, bool with_imu = true);
 
 /// KITTI odometry: `DIR/image_0`, `image_1` (rectified), `calib.txt` (P0, P1), `times.txt`, and if it exists
 /// `poses.txt` (left camera in its first pose). Times count from kStartTime_s.

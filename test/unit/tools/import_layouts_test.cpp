@@ -9,8 +9,13 @@
 namespace stereo_nav::tools {
 namespace {
 
-std::string errorOf(Sequence (*read)(const std::string&), const TemporaryFolder& folder) {
+template <class Read>
+std::string errorOf(Read read, const TemporaryFolder& folder) {
   return messageOf<std::runtime_error>([&] { read(folder.path()); });
+}
+
+Sequence euroc(const std::string& folder) {
+  return readEuroc(folder);
 }
 
 TEST(EurocLayout, readsCamerasImuAndGroundTruth) {
@@ -63,21 +68,55 @@ TEST(EurocLayout, findsTheFoldersBelowMav0AndDoesWithoutImu) {
 
 TEST(EurocLayout, namesWhatItCannotUse) {
   const TemporaryFolder folder;
-  EXPECT_NE(errorOf(readEuroc, folder).find("cam0: does not exist"), std::string::npos);
+  EXPECT_NE(errorOf(euroc, folder).find("cam0: does not exist"), std::string::npos);
   writeEuroc(folder);
   folder.write("cam1/sensor.yaml", eurocCamera(-0.1));
-  EXPECT_NE(errorOf(readEuroc, folder).find("are the two swapped?"), std::string::npos);
+  EXPECT_NE(errorOf(euroc, folder).find("are the two swapped?"), std::string::npos);
   folder.write("cam1/sensor.yaml", "distortion_model: equidistant\n");
-  EXPECT_NE(errorOf(readEuroc, folder).find("only radial-tangential is supported"), std::string::npos);
+  EXPECT_NE(errorOf(euroc, folder).find("only radial-tangential is supported"), std::string::npos);
   folder.write("cam1/sensor.yaml", "distortion_model: radial-tangential\nresolution: [64]\n");
-  EXPECT_NE(errorOf(readEuroc, folder).find("resolution has 1 values"), std::string::npos);
+  EXPECT_NE(errorOf(euroc, folder).find("resolution has 1 values"), std::string::npos);
   folder.write("cam1/sensor.yaml", "distortion_model: radial-tangential\n");
-  EXPECT_NE(errorOf(readEuroc, folder).find("resolution is missing"), std::string::npos);
+  EXPECT_NE(errorOf(euroc, folder).find("resolution is missing"), std::string::npos);
   folder.write("cam1/sensor.yaml", eurocCamera(0.1));
   folder.write("imu0/data.csv", "1403636584000000000,nan,0,0,0,0,0\n");
-  EXPECT_NE(errorOf(readEuroc, folder).find("data.csv:1: 'nan' is not a finite number"), std::string::npos);
+  EXPECT_NE(errorOf(euroc, folder).find("data.csv:1: 'nan' is not a finite number"), std::string::npos);
   folder.write("cam0/data.csv", "5,a.png\n5,b.png\n");
-  EXPECT_NE(errorOf(readEuroc, folder).find("data.csv:2: the stamp 5 is not later"), std::string::npos);
+  EXPECT_NE(errorOf(euroc, folder).find("data.csv:2: the stamp 5 is not later"), std::string::npos);
+}
+
+TEST(EurocLayout, anImuFolderWithoutDataNamesTheOption) {
+  const TemporaryFolder folder;
+  writeEuroc(folder);
+  folder.write("imu0/data.csv", "#timestamp [ns]\n");
+  EXPECT_NE(errorOf(euroc, folder).find("--no-imu"), std::string::npos);
+  std::filesystem::remove_all(folder / "imu0");
+  std::filesystem::create_directories(folder / "imu0");
+  EXPECT_NE(errorOf(euroc, folder).find("--no-imu"), std::string::npos);
+  EXPECT_EQ(readEuroc(folder.path(), false).left.frames->size(), 6u);
+}
+
+TEST(KittiLayout, imagesAreInTheOrderOfTheirNumbersAndHaveEqualNames) {
+  const TemporaryFolder folder;
+  writeKitti(folder);
+  for (const char* camera : {"image_0/", "image_1/"}) {
+    std::filesystem::remove_all(folder / camera);
+    for (int i = 8; i < 12; ++i) writeImage(folder, camera + std::to_string(i) + ".png", frameOf(i));
+  }
+  const Sequence sequence = readKitti(folder.path());
+  EXPECT_EQ(sequence.left.frames->read(1).at<std::uint8_t>(0, 0), 190);
+  EXPECT_EQ(sequence.left.frames->read(2).at<std::uint8_t>(0, 0), 210);
+  std::filesystem::rename(folder / "image_1/11.png", folder / "image_1/7.png");
+  const std::string message = errorOf(readKitti, folder);
+  EXPECT_NE(message.find("image_1/7.png, image_0/11.png"), std::string::npos) << message;
+}
+
+TEST(KittiLayout, namesTheColourFolders) {
+  const TemporaryFolder folder;
+  writeKitti(folder);
+  std::filesystem::rename(folder / "image_0", folder / "image_2");
+  std::filesystem::rename(folder / "image_1", folder / "image_3");
+  EXPECT_NE(errorOf(readKitti, folder).find("image_2 and image_3 are the colour cameras"), std::string::npos);
 }
 
 TEST(KittiLayout, readsPosesAndProjection) {
