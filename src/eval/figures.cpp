@@ -153,7 +153,7 @@ Figure featuresOverTime(const Evaluation& evaluation) {
               "set yrange [0:*]\nset ylabel 'count'\n" + plot + "\n"};
 }
 
-std::string escaped(const std::string& text) {
+std::string gnuplotEscaped(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
   return result;
@@ -184,7 +184,7 @@ Figure stagesOverTime(const Evaluation& evaluation, const std::vector<FrameRecor
     char median[32];
     std::snprintf(median, sizeof median, " (%.2f ms)", stages[s].second);
     plot += "$times using 1:" + std::to_string(s + 3) + " with filledcurves y1=0 lc rgb '" +
-            colours[s % colours.size()] + "' title '" + escaped(stages[s].first) + median + "', ";
+            colours[s % colours.size()] + "' title '" + gnuplotEscaped(stages[s].first) + median + "', ";
   }
   return {"stages", "Time per stage, one on top of the other, with their medians; line: the whole frame.",
           header("stages", 380) + dataBlock("times", rows) +

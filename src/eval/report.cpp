@@ -30,7 +30,7 @@ td,th{padding:4px 14px;border-bottom:1px solid #e8ecef;text-align:left;vertical-
 td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 )";
 
-std::string escaped(const std::string& text) {
+std::string htmlEscaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     if (c == '<') {
@@ -108,7 +108,7 @@ std::string timingTable(const TimingSummary& timing) {
                      row("frame, 99 %", number(timing.p99_ms, 2, "ms")) +
                      row("frame, longest", number(timing.max_ms, 2, "ms"));
   for (const auto& [stage, ms] : timing.stage_medians_ms) {
-    text += row("stage: " + escaped(stage), number(ms, 2, "ms"), "median");
+    text += row("stage: " + htmlEscaped(stage), number(ms, 2, "ms"), "median");
   }
   const bool has_disparity = std::isfinite(timing.disparity_median_ms);
   return text +
@@ -140,17 +140,17 @@ std::optional<std::string> writeReport(const std::string& directory, const Evalu
     }
   }
   const EvaluationSummary& summary = evaluation.summary;
-  std::string note = warning ? "<p class=\"warning\">" + escaped(*warning) + "</p>\n" : "";
+  std::string note = warning ? "<p class=\"warning\">" + htmlEscaped(*warning) + "</p>\n" : "";
   if (input.ground_truth.empty()) {
     note += "<p class=\"warning\">No ground truth: the errors are unknown, the path is the estimate's.</p>\n";
   }
   writeFileAtomically(directory + "/report.html",
                       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>Odometry: " +
-                          escaped(summary.input) + "</title>\n<style>" + kStyle +
+                          htmlEscaped(summary.input) + "</title>\n<style>" + kStyle +
                           "</style>\n</head>\n<body>\n<main>\n<h1>Visual odometry, evaluated</h1>\n"
                           "<p class=\"what\"><code>" +
-                          escaped(summary.input) + "</code> with <code>" + escaped(summary.config) +
+                          htmlEscaped(summary.input) + "</code> with <code>" + htmlEscaped(summary.config) +
                           "</code></p>\n" + tiles(summary, timing) + note + "<h2>Pictures</h2>\n" + pictures +
                           accuracyTable(summary) + timingTable(timing) + "</main>\n</body>\n</html>\n");
   return warning;

@@ -1,16 +1,9 @@
 #include "sim/rendered_frame.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace stereo_nav::sim {
-namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-}  // namespace
-
 RenderedFrame::RenderedFrame(const Scene& scene, const CameraPath& T_world_camera, const Shutter& shutter,
                              int height, int samples)
     : samples_(samples), global_shutter_(shutter.readout_s == 0.0) {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "sim/ray_span.h"
 #include "sim/renderer.h"
 
 namespace stereo_nav::sim {
+
+/// Depth of what no ray meets, and the bounds of an empty rectangle.
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// What is the same for all tiles of one image: every solid as seen at the instant of each row and sample,
 /// and which part of the image it can cover.

@@ -1,7 +1,6 @@
 #include "sim/renderer.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "sim/ray_span.h"
@@ -9,8 +8,6 @@
 
 namespace stereo_nav::sim {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Where in the pixel sample `index` of `count` lies, in [-0.5, 0.5): a lattice with all columns and all rows
 /// different, in another order than the times of the samples, and with mean 0.

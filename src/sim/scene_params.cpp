@@ -4,7 +4,7 @@ namespace stereo_nav::sim {
 namespace {
 
 constexpr Range<double> kPlace{-100.0, 100.0};
-constexpr Range<double> kSize{0.001, 100.0};
+constexpr Range<double> kExtent{0.001, 100.0};
 
 void describeShape(ParameterVisitor& visitor, Shape& shape) {
   visitEnum(visitor, "shape", shape, {{"box", Shape::kBox}, {"cylinder", Shape::kCylinder}}, "its shape");
@@ -24,9 +24,9 @@ void ObjectParams::describe(ParameterVisitor& visitor) {
   visitor.real("x_m", x_m, kPlace, "m", "position of the middle, forward from the start");
   visitor.real("y_m", y_m, kPlace, "m", "position of the middle, left of the start");
   visitor.real("yaw_deg", yaw_deg, {-360.0, 360.0}, "deg", "turned about the vertical, counter-clockwise");
-  visitor.real("length_m", length_m, kSize, "m", "extent along its own x axis; a cylinder's diameter");
-  visitor.real("width_m", width_m, kSize, "m", "extent along its own y axis; a cylinder has none");
-  visitor.real("height_m", height_m, kSize, "m", "vertical extent");
+  visitor.real("length_m", length_m, kExtent, "m", "extent along its own x axis; a cylinder's diameter");
+  visitor.real("width_m", width_m, kExtent, "m", "extent along its own y axis; a cylinder has none");
+  visitor.real("height_m", height_m, kExtent, "m", "vertical extent");
   visitor.real("bottom_m", bottom_m, {0.0, 100.0}, "m", "height of the underside above the floor");
   visitSection(visitor, "material", material);
   visitor.real("walk_x_m", walk_x_m, kPlace, "m", "it walks this far forward and back");
@@ -40,7 +40,7 @@ void RoomParams::describe(ParameterVisitor& visitor) {
   visitor.real("x_max_m", x_max_m, kPlace, "m", "wall ahead");
   visitor.real("y_min_m", y_min_m, kPlace, "m", "wall on the right");
   visitor.real("y_max_m", y_max_m, kPlace, "m", "wall on the left");
-  visitor.real("height_m", height_m, kSize, "m", "of the ceiling");
+  visitor.real("height_m", height_m, kExtent, "m", "of the ceiling");
   visitSection(visitor, "floor", floor);
   visitSection(visitor, "walls", walls);
   visitSection(visitor, "ceiling", ceiling);
@@ -53,10 +53,10 @@ void ClutterParams::describe(ParameterVisitor& visitor) {
   visitor.real("x_max_m", x_max_m, kPlace, "m", "rectangle of the floor they stand on");
   visitor.real("y_min_m", y_min_m, kPlace, "m", "rectangle of the floor they stand on");
   visitor.real("y_max_m", y_max_m, kPlace, "m", "rectangle of the floor they stand on");
-  visitor.real("size_min_m", size_min_m, kSize, "m", "smallest horizontal extent");
-  visitor.real("size_max_m", size_max_m, kSize, "m", "largest horizontal extent");
-  visitor.real("height_min_m", height_min_m, kSize, "m", "lowest");
-  visitor.real("height_max_m", height_max_m, kSize, "m", "highest");
+  visitor.real("size_min_m", size_min_m, kExtent, "m", "smallest horizontal extent");
+  visitor.real("size_max_m", size_max_m, kExtent, "m", "largest horizontal extent");
+  visitor.real("height_min_m", height_min_m, kExtent, "m", "lowest");
+  visitor.real("height_max_m", height_max_m, kExtent, "m", "highest");
   visitSection(visitor, "material", material);
 }
 

@@ -10,7 +10,7 @@
 namespace stereo_nav::calibration {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
+constexpr double kTurnDegree = M_PI / 180.0;
 
 /// A rig that is turned by hand: sines about the camera's axes, deg and Hz.
 struct Wiggle {
@@ -20,7 +20,8 @@ struct Wiggle {
 
   Eigen::Matrix3d orientation(double time_s) const {
     const Eigen::Vector3d angle =
-        (kDegree * amplitude_deg).cwiseProduct((2.0 * M_PI * time_s * frequency_hz).array().sin().matrix());
+        (kTurnDegree * amplitude_deg)
+            .cwiseProduct((2.0 * M_PI * time_s * frequency_hz).array().sin().matrix());
     return expRotation(Eigen::Vector3d(angle.x(), 0, 0)) * expRotation(Eigen::Vector3d(0, angle.y(), 0)) *
            expRotation(Eigen::Vector3d(0, 0, angle.z()));
   }
@@ -61,7 +62,7 @@ Data simulate(const Wiggle& wiggle, const Faults& faults) {
   };
   Data data;
   for (double t = 0.5; t < wiggle.duration_s; t += 1.0 / 30.0) {
-    double sigma_rad = faults.camera_noise_deg * kDegree;
+    double sigma_rad = faults.camera_noise_deg * kTurnDegree;
     if (share(random) < faults.outlier_share) sigma_rad = 0.3;
     data.camera.push_back({t, wiggle.orientation(t) * expRotation(noise(sigma_rad)), 0});
   }
@@ -92,8 +93,8 @@ TEST(ImuCameraRotation, AKnownMountingIsFoundFromRates) {
   const Data data = simulate({}, {});
   const auto result = calibrateImuCameraRotation(data.camera, data.imu);
   ASSERT_TRUE(result.usable()) << result.refusal;
-  EXPECT_LT(errorOf(result).norm(), 0.1 * kDegree);
-  EXPECT_LT(result.sigma_rad.maxCoeff(), 0.1 * kDegree);
+  EXPECT_LT(errorOf(result).norm(), 0.1 * kTurnDegree);
+  EXPECT_LT(result.sigma_rad.maxCoeff(), 0.1 * kTurnDegree);
   EXPECT_NEAR(result.imu_offset_s, 0.0, 0.002);
   EXPECT_TRUE(result.bias_rad_s.isApprox(Eigen::Vector3d(0.02, -0.05, 0.08), 0.05)) << result.bias_rad_s;
 }
@@ -103,7 +104,7 @@ TEST(ImuCameraRotation, AKnownMountingIsFoundFromAttitudes) {
   useAttitudes({}, data, 0.0);
   const auto result = calibrateImuCameraRotation(data.camera, data.imu);
   ASSERT_TRUE(result.usable()) << result.refusal;
-  EXPECT_LT(errorOf(result).norm(), 0.1 * kDegree);
+  EXPECT_LT(errorOf(result).norm(), 0.1 * kTurnDegree);
 }
 
 TEST(ImuCameraRotation, LateAndEarlyStampsAreFoundAndDoNoHarm) {
@@ -115,7 +116,7 @@ TEST(ImuCameraRotation, LateAndEarlyStampsAreFoundAndDoNoHarm) {
     ASSERT_TRUE(result.usable()) << result.refusal;
     EXPECT_NEAR(result.imu_offset_s, offset_s, 0.002);
     EXPECT_LT(result.imu_offset_sigma_s, 0.002);
-    EXPECT_LT(errorOf(result).norm(), 0.1 * kDegree) << offset_s;
+    EXPECT_LT(errorOf(result).norm(), 0.1 * kTurnDegree) << offset_s;
   }
 }
 
@@ -142,7 +143,7 @@ TEST(ImuCameraRotation, SomeWrongOrientationsDoNoHarm) {
   const Data data = simulate({}, faults);
   const auto result = calibrateImuCameraRotation(data.camera, data.imu);
   ASSERT_TRUE(result.usable()) << result.refusal;
-  EXPECT_LT(errorOf(result).norm(), 0.3 * kDegree);
+  EXPECT_LT(errorOf(result).norm(), 0.3 * kTurnDegree);
 }
 
 TEST(ImuCameraRotation, RunsOfTheVisionAreNotJoined) {
@@ -155,7 +156,7 @@ TEST(ImuCameraRotation, RunsOfTheVisionAreNotJoined) {
   }
   const auto result = calibrateImuCameraRotation(data.camera, data.imu);
   ASSERT_TRUE(result.usable()) << result.refusal;
-  EXPECT_LT(errorOf(result).norm(), 0.1 * kDegree);
+  EXPECT_LT(errorOf(result).norm(), 0.1 * kTurnDegree);
 }
 
 TEST(ImuCameraRotation, TwoAxesAreEnough) {
@@ -164,7 +165,7 @@ TEST(ImuCameraRotation, TwoAxesAreEnough) {
   const Data data = simulate(wiggle, {});
   const auto result = calibrateImuCameraRotation(data.camera, data.imu);
   ASSERT_TRUE(result.usable()) << result.refusal;
-  EXPECT_LT(errorOf(result).norm(), 0.2 * kDegree);
+  EXPECT_LT(errorOf(result).norm(), 0.2 * kTurnDegree);
 }
 
 void expectRefusal(const Data& data, const std::string& part) {

@@ -32,7 +32,7 @@ struct Outer {
   }
 };
 
-std::string messageOf(const std::string& yaml) {
+std::string yamlError(const std::string& yaml) {
   Outer params;
   try {
     readParameters(YAML::Load(yaml), "test.yaml", params);
@@ -60,15 +60,15 @@ TEST(Parameters, AnEmptyFileMeansDefaults) {
 }
 
 TEST(Parameters, MessagesNameParameterValueAndRange) {
-  EXPECT_EQ(messageOf("{corners: {threshold: 300}}"),
+  EXPECT_EQ(yamlError("{corners: {threshold: 300}}"),
             "test.yaml: corners.threshold is 300, allowed is 1 to 255 grey levels (FAST threshold)");
-  EXPECT_EQ(messageOf("{corners: {treshold: 3}}"),
+  EXPECT_EQ(yamlError("{corners: {treshold: 3}}"),
             "test.yaml: unknown parameter corners.treshold; known here: threshold");
-  EXPECT_EQ(messageOf("{method: best}"),
+  EXPECT_EQ(yamlError("{method: best}"),
             "test.yaml: method is 'best', allowed is one of: distance | per_axis");
-  EXPECT_EQ(messageOf("{max_depth_m: far}"), "test.yaml: max_depth_m is 'far', must be a number");
-  EXPECT_EQ(messageOf("{corners: 3}"), "test.yaml: corners. must be a list of `name: value` lines");
-  EXPECT_NE(messageOf("{max_depth_m: .nan}"), "");
+  EXPECT_EQ(yamlError("{max_depth_m: far}"), "test.yaml: max_depth_m is 'far', must be a number");
+  EXPECT_EQ(yamlError("{corners: 3}"), "test.yaml: corners. must be a list of `name: value` lines");
+  EXPECT_NE(yamlError("{max_depth_m: .nan}"), "");
 }
 
 TEST(Parameters, ValuesSetInCodeAreChecked) {
