@@ -15,7 +15,7 @@ namespace topics = ros_io::topics;
 
 constexpr double kPeriod_s = 1.0;
 constexpr double kRepeat_s = 30.0;
-constexpr double kGiga = 1e9;
+constexpr double kBytesPerGigabyte = 1e9;
 
 RecorderParams readParams(const ros::NodeHandle& private_handle) {
   RecorderParams params;
@@ -31,7 +31,7 @@ fs::path makeFolder(const RecorderParams& params) {
   fs::create_directories(folder, error);
   if (error) throw ParameterError("~folder " + folder.string() + " cannot be made: " + error.message());
   const auto space = fs::space(folder, error);
-  const double free_gb = static_cast<double>(space.available) / kGiga;
+  const double free_gb = static_cast<double>(space.available) / kBytesPerGigabyte;
   if (!error && free_gb < params.reserve_gb) {
     std::ostringstream text;
     text << "~folder " << folder.string() << " has " << free_gb
@@ -55,7 +55,7 @@ std::vector<std::string> recordedTopics(const RecorderParams& params) {
 }
 
 std::uint64_t toBytes(double gigabytes) {
-  return static_cast<std::uint64_t>(gigabytes * kGiga);
+  return static_cast<std::uint64_t>(gigabytes * kBytesPerGigabyte);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "stereo_nav/core/input_error.h"
+#include "support/text.h"
 
 namespace stereo_nav::ros_io {
 namespace {
@@ -31,10 +32,6 @@ std::string refusal(const sensor_msgs::CameraInfo& left, const sensor_msgs::Came
     return error.what();
   }
   return "accepted";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(ToCalibration, ReadsTheThesisRig) {

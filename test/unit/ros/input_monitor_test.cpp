@@ -4,6 +4,7 @@
 
 #include "ros/latency_window.h"
 #include "ros/problem_list.h"
+#include "support/text.h"
 
 namespace stereo_nav::ros_io {
 namespace {
@@ -18,10 +19,6 @@ struct Watched {
   std::size_t disparity =
       monitor.add({"/camera/disparity", "Disparity.", true, [this] { return publishers; }});
 };
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST(InputMonitor, SaysNothingBeforeTheTimeout) {
   Watched watched;

@@ -11,6 +11,7 @@
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/topics.h"
 #include "support/fixture_bag.h"
+#include "support/text.h"
 
 namespace stereo_nav::ros_io {
 namespace {
@@ -38,10 +39,6 @@ class RecordingTest : public ::testing::Test {
  private:
   fs::path folder_;
 };
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST_F(RecordingTest, DeliversEveryPairInOrderWithItsTrueTimes) {
   test::FixtureBag fixture;
