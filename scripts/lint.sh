@@ -3,8 +3,8 @@
 #
 #   scripts/lint.sh [--tidy [BUILD_DIR [FILE...]]]
 #
-# --tidy runs clang-tidy instead, over all of src/ (or these files) as BUILD_DIR (build/ unless given) compiles it;
-# .clang-tidy lists the checks. All of src/ takes minutes.
+# --tidy runs clang-tidy instead, over each source of src/ by itself (or these files); .clang-tidy lists the checks. All of
+# src/ takes minutes. BUILD_DIR (build-tidy/ unless given) is configured for it: a normal build compiles in batches.
 #
 # Prints one line a check in the Test Anything Protocol, what is wrong on standard error. A check whose tool is missing
 # is skipped. Works on the files that git tracks.
@@ -72,6 +72,12 @@ for path in sys.argv[1:]:
         sys.exit(f"{path}: {error}")'
 )
 
+tidy_check() (
+  configure "$1" -DSTEREO_NAV_UNITY=OFF
+  cmake --build "$1" --target stereo_nav_generate_messages_cpp stereo_nav_gencfg >"$1/generate.log" || { cat "$1/generate.log"; exit 1; }
+  /usr/bin/python3 scripts/lib/tidy.py "$@"
+)
+
 python_check() (
   git ls-files -z '*.py' | xargs -0 -r /usr/bin/python3 -c 'import ast, sys
 for path in sys.argv[1:]:
@@ -115,7 +121,7 @@ command_check() (
 
 case ${1:-} in
   --tidy)
-    check clang_tidy /usr/bin/python3 scripts/lib/tidy.py "${@:2}"
+    check clang_tidy tidy_check "$(absolute_path "${2:-build-tidy}")" "${@:3}"
     [[ $failures -eq 0 ]]
     exit
     ;;
