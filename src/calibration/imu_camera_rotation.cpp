@@ -83,7 +83,7 @@ Linearised linearise(const std::vector<Turn>& turns, const ImuTurns& imu, const 
     if (!now || !before || !after) continue;
     const Eigen::Vector3d residual = residualOf(fit, turn, *now);
     Eigen::Matrix<double, 3, 7> jacobian;
-    jacobian.leftCols<3>() = skew(turn.angle_rad - residual);
+    jacobian.leftCols<3>() = hat(turn.angle_rad - residual);
     jacobian.middleCols<3>(3) = turn.duration_s() * fit.R_camera_imu;
     jacobian.col(6) = -fit.R_camera_imu * (*after - *before) / (2.0 * kStep_s);
     const double weight = 1.0 / (1.0 + residual.squaredNorm() / (scale_rad * scale_rad));

@@ -4,7 +4,7 @@ namespace stereo_nav::vision {
 
 Eigen::Matrix<double, 3, 6> perturbationJacobian(const Eigen::Vector3d& p) {
   Eigen::Matrix<double, 3, 6> jacobian;
-  jacobian << Eigen::Matrix3d::Identity(), -skew(p);
+  jacobian << Eigen::Matrix3d::Identity(), -hat(p);
   return jacobian;
 }
 
@@ -31,7 +31,7 @@ bool viewResidual(const StereoCalibration& calibration, const StereoView& view,
     residual.by_camera_point.bottomRows<2>() = by_late_point * view.T_late_camera.linear();
   }
   residual.by_pose.leftCols<3>() = residual.by_camera_point;
-  residual.by_pose.rightCols<3>() = -residual.by_camera_point * skew(p_camera);
+  residual.by_pose.rightCols<3>() = -residual.by_camera_point * hat(p_camera);
   return true;
 }
 

@@ -7,20 +7,34 @@ namespace stereo_nav {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// [v]x, with [v]x w = v x w.
-Eigen::Matrix3d skew(const Eigen::Vector3d& v);
+/// The cross product as a matrix: hat(v) w = v x w.
+Eigen::Matrix3d hat(const Eigen::Vector3d& v);
 
-/// Rotation by the vector `angle` (rad) and back (Rodrigues); the logarithm is at most pi long.
+/// SO(3): the rotation about the axis of `angle` by its length in rad, as a quaternion or as a matrix.
+Eigen::Quaterniond expQuaternion(const Eigen::Vector3d& angle);
 Eigen::Matrix3d expRotation(const Eigen::Vector3d& angle);
+
+/// The inverse of the two functions above, in rad; at most pi long.
+Eigen::Vector3d logRotation(const Eigen::Quaterniond& q);
 Eigen::Vector3d logRotation(const Eigen::Matrix3d& R);
 
-/// Twists are (translation m, rotation rad): exp of a constant twist over one unit of time, and back
-/// (Barfoot 2017, State Estimation for Robotics, eq. 7.85 and 7.86).
+/// Left Jacobian of SO(3): exp(angle + d) = exp(leftJacobian(angle) d) exp(angle) for a small d
+/// (Barfoot 2017, State Estimation for Robotics, eq. 7.77).
+Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& angle);
+
+/// SE(3). A twist is (translation in m, rotation in rad). expMotion() is the motion of a body that moves with
+/// that constant velocity, in its own axes, for one unit of time; logMotion() is the inverse (Barfoot 2017,
+/// eq. 7.85 and 7.86).
 Eigen::Isometry3d expMotion(const Vector6d& twist);
 Vector6d logMotion(const Eigen::Isometry3d& T);
 
-/// d log(exp(e) T) / d e at e = 0, given twist = log T; to second order in the twist, which is exact to 1e-4
-/// for motions between frames.
+/// Takes a small motion that is expressed in frame b into frame a: T_a_b exp(d) = exp(adjoint(T_a_b) d)
+/// T_a_b.
+Matrix6d adjoint(const Eigen::Isometry3d& T_a_b);
+
+/// d log(exp(e) T) / d e at e = 0, given twist = log T: the inverse of the left Jacobian of SE(3), as a
+/// series to second order in the twist. The error is the fourth power of the twist over 720, which is below
+/// 1e-9 for the motions between two frames.
 Matrix6d inverseLeftJacobian(const Vector6d& twist);
 
 /// The same rigid motion with its rotation made orthonormal again.

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace stereo_nav {
+
+/// SE(2): motion in the plane. A planar twist is (forward m, left m, rotation rad). expPlanar() is the motion
+/// of a body that moves with that constant velocity, in its own axes, for one unit of time; logPlanar() is
+/// the inverse, with a rotation from -pi to pi (Sola et al. 2018, "A micro Lie theory", eq. 156 to 158).
+Eigen::Isometry2d expPlanar(const Eigen::Vector3d& twist);
+Eigen::Vector3d logPlanar(const Eigen::Isometry2d& T);
+
+/// Takes a small planar motion that is expressed in frame b into frame a (Sola et al., eq. 159).
+Eigen::Matrix3d adjointPlanar(const Eigen::Isometry2d& T_a_b);
+
+/// exp(twist + d) = exp(leftJacobianPlanar(twist) d) exp(twist) for a small d (Sola et al., eq. 164).
+Eigen::Matrix3d leftJacobianPlanar(const Eigen::Vector3d& twist);
+
+}  // namespace stereo_nav
