@@ -5,9 +5,9 @@ find_package(catkin REQUIRED COMPONENTS
   pluginlib rosbag rosbag_storage rosconsole roscpp roslib sensor_msgs std_msgs std_srvs stereo_image_proc stereo_msgs
   tf2 tf2_eigen tf2_geometry_msgs tf2_msgs tf2_ros)
 find_package(Boost REQUIRED COMPONENTS program_options)
-find_package(Ceres REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(JPEG REQUIRED)
+find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs features2d video calib3d videoio)
 find_package(Threads REQUIRED)

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
+
+#include "core/statistics.h"
 
 namespace stereo_nav::calibration {
 namespace {
@@ -44,8 +47,7 @@ double rms(const std::vector<ViewFigures>& views, double ViewFigures::*figure) {
 double medianScale(const std::vector<ViewFigures>& views) {
   std::vector<double> scales;
   for (const ViewFigures& view : views) scales.push_back(view.scale);
-  std::sort(scales.begin(), scales.end());
-  return 0.5 * (scales[(scales.size() - 1) / 2] + scales[scales.size() / 2]);
+  return quantile(std::move(scales), 0.5);
 }
 
 constexpr int kPartsX = 4, kPartsY = 3;

@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "calibration/turns.h"
+#include "core/angles.h"
+#include "core/statistics.h"
 
 namespace stereo_nav::calibration {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 
@@ -104,10 +105,8 @@ double spreadOf(const std::vector<Turn>& turns, const ImuTurns& imu, const Fit& 
     if (imu_turn) lengths.push_back(residualOf(fit, turn, *imu_turn).norm());
   }
   if (lengths.empty()) return 1.0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  constexpr double kLeast_rad = 0.02 * kDegree;
-  return std::max(*middle, kLeast_rad);
+  constexpr double kLeast_rad = 0.02 * kRadPerDeg;
+  return std::max(upperMedian(lengths), kLeast_rad);
 }
 
 Fit refine(const std::vector<Turn>& turns, const ImuTurns& imu, Fit fit, ImuCameraRotation& result) {

@@ -4,10 +4,10 @@
 #include <limits>
 #include <sstream>
 
+#include "core/angles.h"
+
 namespace stereo_nav::calibration {
 namespace {
-
-constexpr double kTurnDegree = M_PI / 180.0;
 
 /// An axis of the camera in words.
 std::string axisName(const Eigen::Vector3d& axis) {
@@ -79,8 +79,8 @@ std::string refuseResult(const ImuCameraRotation& result, bool mirrored,
                          const ImuCameraRotationParams& params) {
   std::ostringstream text;
   text.precision(3);
-  const double first_deg_s = result.rate_rms_rad_s(0) / kTurnDegree,
-               second_deg_s = result.rate_rms_rad_s(1) / kTurnDegree;
+  const double first_deg_s = result.rate_rms_rad_s(0) / kRadPerDeg,
+               second_deg_s = result.rate_rms_rad_s(1) / kRadPerDeg;
   if (first_deg_s < params.min_rate_deg_s) {
     text << "the rig hardly turned (" << first_deg_s
          << " deg/s RMS): turn it by some 30 deg to and fro about all three axes, a few seconds each";
@@ -93,15 +93,15 @@ std::string refuseResult(const ImuCameraRotation& result, bool mirrored,
     text << "the IMU's axes are mirrored (left-handed): one of its angles has the wrong sign or they are in "
             "the wrong order; see angle_order in docs/imu.md";
   } else if (result.residual_rms_rad > params.max_residual_share * result.turn_rms_rad) {
-    text << "cameras and IMU disagree by " << result.residual_rms_rad / kTurnDegree << " deg in turns of "
-         << result.turn_rms_rad / kTurnDegree
+    text << "cameras and IMU disagree by " << result.residual_rms_rad / kRadPerDeg << " deg in turns of "
+         << result.turn_rms_rad / kRadPerDeg
          << " deg: is the IMU fixed to the cameras, does it send what its "
          << "protocol says, and are its stamps within " << params.max_offset_s << " s?";
   } else if (std::abs(result.imu_offset_s) > params.max_offset_s) {
     text << "the IMU's stamps would be off by more than " << params.max_offset_s
          << " s, farther than is looked for: correct them first";
-  } else if (!(result.sigma_rad.maxCoeff() < params.max_sigma_deg * kTurnDegree)) {
-    text << "uncertain by " << result.sigma_rad.maxCoeff() / kTurnDegree << " deg (" << params.max_sigma_deg
+  } else if (!(result.sigma_rad.maxCoeff() < params.max_sigma_deg * kRadPerDeg)) {
+    text << "uncertain by " << result.sigma_rad.maxCoeff() / kRadPerDeg << " deg (" << params.max_sigma_deg
          << " allowed): record longer, and turn more about all three axes";
   }
   return text.str();

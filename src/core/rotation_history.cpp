@@ -4,22 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "stereo_nav/core/lie.h"
+
 namespace stereo_nav {
 namespace {
 
-bool isFinite(const ImuSample& sample) {
-  return std::isfinite(sample.time_s) &&
-         (!sample.q_world_imu ||
-          (sample.q_world_imu->coeffs().allFinite() && sample.q_world_imu->norm() > 0.5)) &&
-         (!sample.angular_velocity || sample.angular_velocity->allFinite()) &&
-         (!sample.linear_acceleration || sample.linear_acceleration->allFinite());
-}
-
-/// Rotation by the vector `angle` (rad) as a matrix (Rodrigues).
-Eigen::Matrix3d rotationOf(const Eigen::Vector3d& angle) {
-  const double norm = angle.norm();
-  if (norm < 1e-12) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(norm, angle / norm).toRotationMatrix();
+bool isUsable(const ImuSample& sample) {
+  return std::isfinite(sample.time_s) && sample.isFinite() &&
+         (!sample.q_world_imu || sample.q_world_imu->norm() > 0.5);
 }
 
 bool earlier(const ImuSample& sample, double time_s) {
@@ -29,7 +21,7 @@ bool earlier(const ImuSample& sample, double time_s) {
 }  // namespace
 
 bool RotationHistory::add(const ImuSample& sample) {
-  if (!isFinite(sample)) return false;
+  if (!isUsable(sample)) return false;
   if (!samples_.empty() && sample.time_s <= samples_.back().time_s) return false;
   samples_.push_back(sample);
   if (samples_.back().q_world_imu) samples_.back().q_world_imu->normalize();
@@ -98,7 +90,7 @@ std::optional<Eigen::Matrix3d> RotationHistory::integrateRates(double from_s, do
     const auto next_rate = angularVelocity(then_s);
     if (!next_rate) return std::nullopt;
     // The rate is linear between samples: its mean over the step is that of both ends.
-    R_from_now = R_from_now * rotationOf(0.5 * (*rate + *next_rate) * (then_s - now_s));
+    R_from_now = R_from_now * expRotation(0.5 * (*rate + *next_rate) * (then_s - now_s));
     rate = next_rate;
     now_s = then_s;
     if (next != samples_.end()) ++next;

@@ -1,15 +1,9 @@
 #include "stereo_nav/estimation/base_odometry.h"
 
-#include <cmath>
+#include "core/base_pose.h"
 
 namespace stereo_nav::estimation {
 namespace {
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
 
 Matrix6d turned(const Eigen::Matrix3d& R, const Matrix6d& covariance) {
   Matrix6d both = Matrix6d::Zero();
@@ -38,32 +32,6 @@ void UncertaintyParams::describe(ParameterVisitor& visitor) {
                "standard deviation of the turn rate while no motion is measured", Change::kLive);
 }
 
-Vector6d logarithm(const Eigen::Isometry3d& motion) {
-  const Eigen::AngleAxisd turn(motion.linear());
-  const double angle = turn.angle();
-  const Eigen::Vector3d omega = angle * turn.axis();
-  const Eigen::Matrix3d omega_cross = skew(omega);
-  // Inverse of the left Jacobian of SO(3); its series near zero.
-  constexpr double kSmall_rad = 1e-4;
-  const double square_factor =
-      angle < kSmall_rad ? 1.0 / 12.0
-                         : 1.0 / (angle * angle) - (1.0 + std::cos(angle)) / (2.0 * angle * std::sin(angle));
-  const Eigen::Matrix3d V_inverse =
-      Eigen::Matrix3d::Identity() - 0.5 * omega_cross + square_factor * omega_cross * omega_cross;
-  Vector6d result;
-  result << V_inverse * motion.translation(), omega;
-  return result;
-}
-
-Matrix6d adjoint(const Eigen::Isometry3d& T_a_b) {
-  const Eigen::Matrix3d R = T_a_b.linear();
-  Matrix6d result = Matrix6d::Zero();
-  result.topLeftCorner<3, 3>() = R;
-  result.topRightCorner<3, 3>() = skew(T_a_b.translation()) * R;
-  result.bottomRightCorner<3, 3>() = R;
-  return result;
-}
-
 BaseOdometry::BaseOdometry(const UncertaintyParams& params, const Eigen::Isometry3d& T_base_camera)
     : params_(params), T_base_camera_(T_base_camera), adjoint_base_camera_(adjoint(T_base_camera)) {
   start(Eigen::Isometry3d::Identity(), Matrix6d::Zero());
@@ -89,7 +57,7 @@ void BaseOdometry::setPose(const Eigen::Isometry3d& T_odom_base, const Matrix6d&
 }
 
 const BaseEstimate& BaseOdometry::update(const odometry::FrameResult& result, double time_s) {
-  T_start_base_ = T_base_camera_ * result.T_start_camera * T_base_camera_.inverse();
+  T_start_base_ = basePose(T_base_camera_, result.T_start_camera);
   estimate_.T_odom_base = T_odom_start_ * T_start_base_;
   if (previous_time_s_) addMotion(result, time_s - *previous_time_s_, !previous_lost_);
   estimate_.pose_covariance = turned(estimate_.T_odom_base.linear(), covariance_base_);
@@ -101,13 +69,13 @@ const BaseEstimate& BaseOdometry::update(const odometry::FrameResult& result, do
 void BaseOdometry::addMotion(const odometry::FrameResult& result, double interval_s,
                              bool measured_from_previous_frame) {
   const Matrix6d covariance = motionCovariance(result, interval_s);
-  const Eigen::Isometry3d motion = T_base_camera_ * result.T_previous_camera * T_base_camera_.inverse();
+  const Eigen::Isometry3d motion = basePose(T_base_camera_, result.T_previous_camera);
   const Matrix6d carry = adjoint(motion.inverse());
   covariance_base_ = carry * covariance_base_ * carry.transpose() + covariance;
 
   // After lost frames the motion may span more than the last interval: its speed is unknown.
   const bool known = result.state != odometry::State::kLost && measured_from_previous_frame;
-  estimate_.twist = known ? Vector6d(logarithm(motion) / interval_s) : Vector6d::Zero();
+  estimate_.twist = known ? Vector6d(logMotion(motion) / interval_s) : Vector6d::Zero();
   estimate_.twist_covariance = known ? Matrix6d(covariance / (interval_s * interval_s))
                                      : diagonal(params_.lost_speed_m_s, params_.lost_turn_rate_rad_s);
 }

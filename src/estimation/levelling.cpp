@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/roll_pitch_yaw.h"
+
 namespace stereo_nav::estimation {
 
 std::optional<Eigen::Matrix3d> levelledAttitude(const RotationHistory& history, double time_s,
@@ -19,8 +21,7 @@ std::optional<Eigen::Matrix3d> levelledAttitude(const RotationHistory& history, 
   // Roll and pitch that bring the measured up onto z.
   const double roll_rad = std::atan2(up_base.y(), up_base.z());
   const double pitch_rad = std::atan2(-up_base.x(), std::hypot(up_base.y(), up_base.z()));
-  return Eigen::Matrix3d(Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-                         Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX()));
+  return RollPitchYaw{roll_rad, pitch_rad, 0.0}.rotation();
 }
 
 }  // namespace stereo_nav::estimation

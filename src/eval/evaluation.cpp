@@ -1,7 +1,8 @@
 #include "stereo_nav/eval/evaluation.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "eval/alignment.h"
 #include "eval/json_text.h"
@@ -44,14 +45,11 @@ AssociatedPoses associate(const EvaluationInput& input, const Poses& T_odom_base
     associated.T_world_base.push_back(*T_world_base);
   }
   if (associated.frames.size() >= kMinFramesWithGroundTruth) return associated;
-  char message[320];
-  std::snprintf(
-      message, sizeof message,
-      "only %zu of %zu frames have ground truth: the frames are from %.3f to %.3f s, the ground truth from "
-      "%.3f to %.3f s; give the ground truth of this recording, in the same clock",
+  throw InputError(fmt::format(
+      "only {} of {} frames have ground truth: the frames are from {:.3f} to {:.3f} s, the ground truth from "
+      "{:.3f} to {:.3f} s; give the ground truth of this recording, in the same clock",
       associated.frames.size(), input.frames.size(), input.frames.front().time_s, input.frames.back().time_s,
-      input.ground_truth.front().time_s, input.ground_truth.back().time_s);
-  throw InputError(message);
+      input.ground_truth.front().time_s, input.ground_truth.back().time_s));
 }
 
 Poses moved(const Eigen::Isometry3d& T_new_old, const Poses& poses, const Eigen::Isometry3d& T_body_other) {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/angles.h"
+
 namespace stereo_nav::eval {
 namespace {
-
-constexpr double kDegreesPerRadian = 180.0 / M_PI;
 
 /// Path from the first pose to each pose, m.
 std::vector<double> pathTo(const Poses& poses) {
@@ -65,16 +65,7 @@ RelativeError relativeError(const Poses& ground_truth, const Poses& estimate,
 }
 
 double angleDeg(const Eigen::Matrix3d& R) {
-  return Eigen::AngleAxisd(R).angle() * kDegreesPerRadian;  // goes over atan2, unlike acos of the trace
-}
-
-double percentile(std::vector<double> samples, double share) {
-  if (samples.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(samples.begin(), samples.end());
-  const double position = share * static_cast<double>(samples.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  const std::size_t above = std::min(below + 1, samples.size() - 1);
-  return samples[below] + (position - static_cast<double>(below)) * (samples[above] - samples[below]);
+  return Eigen::AngleAxisd(R).angle() * kDegPerRad;  // goes over atan2, unlike acos of the trace
 }
 
 }  // namespace stereo_nav::eval

@@ -32,8 +32,4 @@ RelativeError relativeError(const Poses& ground_truth, const Poses& estimate,
 /// Angle of a rotation, degrees, 0 to 180; exact for small angles, too.
 double angleDeg(const Eigen::Matrix3d& R);
 
-/// Value below which the given share of the samples lies, interpolated linearly between samples; NaN without
-/// samples.
-double percentile(std::vector<double> samples, double share);
-
 }  // namespace stereo_nav::eval

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
 #include "eval/json_text.h"
-#include "eval/metrics.h"
 
 namespace stereo_nav::eval {
 namespace {
@@ -30,13 +30,13 @@ TimingSummary summariseTiming(const std::vector<FrameTiming>& frames) {
     if (std::isfinite(frame.disparity_ms)) disparity_ms.push_back(frame.disparity_ms);
     for (const auto& [stage, ms] : frame.stages_ms) samplesOf(stages_ms, stage).push_back(ms);
   }
-  TimingSummary summary{percentile(frame_ms, 0.5),
-                        percentile(frame_ms, 0.95),
-                        percentile(frame_ms, 0.99),
-                        percentile(frame_ms, 1.0),
+  TimingSummary summary{quantile(frame_ms, 0.5),
+                        quantile(frame_ms, 0.95),
+                        quantile(frame_ms, 0.99),
+                        quantile(frame_ms, 1.0),
                         {},
-                        percentile(disparity_ms, 0.5)};
-  for (const auto& [stage, ms] : stages_ms) summary.stage_medians_ms.emplace_back(stage, percentile(ms, 0.5));
+                        quantile(disparity_ms, 0.5)};
+  for (const auto& [stage, ms] : stages_ms) summary.stage_medians_ms.emplace_back(stage, quantile(ms, 0.5));
   return summary;
 }
 

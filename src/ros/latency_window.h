@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <deque>
-#include <vector>
+
+#include "core/statistics.h"
 
 namespace stereo_nav::ros_io {
 
@@ -17,12 +17,10 @@ class LatencyWindow {
 
   std::size_t size() const { return window_.size(); }
 
-  /// Nearest rank; 0 when empty. `share` 0.5 is the median.
+  /// 0 when empty. `share` 0.5 is the median.
   double quantile(double share) const {
     if (window_.empty()) return 0.0;
-    std::vector<double> sorted(window_.begin(), window_.end());
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+    return stereo_nav::quantile({window_.begin(), window_.end()}, share);
   }
 
  private:

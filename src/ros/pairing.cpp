@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "core/statistics.h"
+
 namespace stereo_nav::ros_io {
 namespace {
 
@@ -42,9 +44,7 @@ double medianPeriod_s(const std::vector<ros::Time>& stamps) {
   std::vector<double> periods;
   for (std::size_t i = 1; i < stamps.size(); ++i) periods.push_back((stamps[i] - stamps[i - 1]).toSec());
   if (periods.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+  return upperMedian(periods);
 }
 
 struct Candidate {

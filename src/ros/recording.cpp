@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 
+#include "ros/image_stamp.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/topics.h"
 
@@ -113,12 +114,12 @@ void Recording::readMessages() {
   right_info_ = firstInfo(topics_.right_info);
   rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
   for (const rosbag::MessageInstance& message : view) {
-    const auto image = message.instantiate<sensor_msgs::Image>();
+    const auto image = message.instantiate<ImageStamp>();
     if (!image) {
       throw InputError(path_ + ": " + message.getTopic() + " is " + message.getDataType() +
                        ", expected sensor_msgs/Image; decompress the recording first");
     }
-    (message.getTopic() == topics_.left ? left_stamps_ : right_stamps_).push_back(image->header.stamp);
+    (message.getTopic() == topics_.left ? left_stamps_ : right_stamps_).push_back(image->stamp);
   }
   if (left_stamps_.empty() || right_stamps_.empty()) {
     throw InputError(path_ + ": " + std::to_string(left_stamps_.size()) + " left and " +

@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "core/angles.h"
+#include "core/roll_pitch_yaw.h"
 #include "sim/random.h"
 
 namespace stereo_nav::sim {
 namespace {
 
-constexpr double kRadPerDeg = M_PI / 180.0;
 const Eigen::Vector3d kGravity_world(0.0, 0.0, -9.81);
 
 Eigen::Vector3d normalVector(RandomStream& random) {
@@ -15,28 +16,18 @@ Eigen::Vector3d normalVector(RandomStream& random) {
   return {x, y, random.normal()};
 }
 
-/// Yaw, pitch, roll of a rotation by yaw about z, then pitch about y, then roll about x.
-Eigen::Vector3d yawPitchRoll(const Eigen::Matrix3d& R) {
-  return {std::atan2(R(1, 0), R(0, 0)), std::asin(-R(2, 0)), std::atan2(R(2, 1), R(2, 2))};
-}
-
-Eigen::Quaterniond attitude(const Eigen::Vector3d& yaw_pitch_roll) {
-  return Eigen::AngleAxisd(yaw_pitch_roll.x(), Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(yaw_pitch_roll.y(), Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(yaw_pitch_roll.z(), Eigen::Vector3d::UnitX());
-}
-
 double quantise(double value, double step) {
   return step > 0.0 ? step * std::round(value / step) : value;
 }
 
 ImuSample thesisSample(const ImuParams& params, const BaseState& state, double time_s, RandomStream& random) {
-  Eigen::Vector3d angles_deg = yawPitchRoll(state.T_world_base.linear()) / kRadPerDeg;
+  const RollPitchYaw truth = RollPitchYaw::of(state.T_world_base.linear());
+  Eigen::Vector3d angles_deg = Eigen::Vector3d(truth.yaw, truth.pitch, truth.roll) / kRadPerDeg;
   angles_deg += params.angle_noise_deg * normalVector(random);
   angles_deg.x() += params.power_on_yaw_deg + params.yaw_drift_dps * time_s;
   for (double& angle : angles_deg) angle = quantise(angle, params.quantisation_deg);
   ImuSample sample;
-  sample.q_world_imu = attitude(angles_deg * kRadPerDeg);
+  sample.q_world_imu = RollPitchYaw::fromDegrees(angles_deg.z(), angles_deg.y(), angles_deg.x()).quaternion();
   return sample;
 }
 

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/angles.h"
 #include "sim/random.h"
 
 namespace stereo_nav::sim {
 namespace {
-
-constexpr double kRadPerDegree = M_PI / 180.0;
 
 struct Interval {
   double near, far;
@@ -83,7 +82,7 @@ void Scene::addObject(const ObjectParams& object) {
   solid.kind = box ? Solid::Kind::kBox : Solid::Kind::kCylinder;
   solid.p_world = {object.x_m, object.y_m, object.bottom_m + 0.5 * object.height_m};
   solid.R_solid_world =
-      Eigen::AngleAxisd(-object.yaw_deg * kRadPerDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      Eigen::AngleAxisd(-object.yaw_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   solid.half = {static_cast<float>(0.5 * object.length_m),
                 static_cast<float>(0.5 * (box ? object.width_m : object.length_m)),
                 static_cast<float>(0.5 * object.height_m)};

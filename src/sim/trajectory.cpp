@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angles.h"
+#include "core/roll_pitch_yaw.h"
 #include "sim/speed_profile.h"
 #include "sim/spline.h"
+#include "stereo_nav/core/lie.h"
 
 namespace stereo_nav::sim {
 namespace {
-
-constexpr double kRadPerDeg = M_PI / 180.0;
 
 struct PlanarPose {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
@@ -134,10 +135,7 @@ Eigen::Isometry3d Trajectory::pose(double time_s) const {
       sway * (0.7 * std::sin(2.0 * M_PI * 1.3 * time_s) + 0.3 * std::sin(2.0 * M_PI * 3.7 * time_s));
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();
   T_world_base.translation().head<2>() = planar.position;
-  T_world_base.linear() =
-      (Eigen::AngleAxisd(planar.heading_rad, Eigen::Vector3d::UnitZ()) *
-       Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
-          .toRotationMatrix();
+  T_world_base.linear() = RollPitchYaw{roll, pitch, planar.heading_rad}.rotation();
   return T_world_base;
 }
 
@@ -148,8 +146,7 @@ BaseState Trajectory::state(double time_s) const {
   state.T_world_base = pose(time_s);
   const Eigen::Matrix3d R_base_world = state.T_world_base.linear().transpose();
   state.velocity_base = R_base_world * (after.translation() - before.translation()) / (2.0 * kStep_s);
-  const Eigen::AngleAxisd turn(before.linear().transpose() * after.linear());
-  state.angular_velocity_base = turn.axis() * turn.angle() / (2.0 * kStep_s);
+  state.angular_velocity_base = logRotation(before.linear().transpose() * after.linear()) / (2.0 * kStep_s);
   state.acceleration_world =
       (after.translation() - 2.0 * state.T_world_base.translation() + before.translation()) /
       (kStep_s * kStep_s);

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/statistics.h"
 #include "sensors/camera/decoder.h"
 #include "sensors/camera/pairer.h"
 #include "sensors/camera/stereo_camera.h"
@@ -88,9 +89,7 @@ void pairOfMjpg(benchmark::State& state) {
 /// Milliseconds.
 double median_ms(std::vector<std::int64_t> values_ns) {
   if (values_ns.empty()) return 0.0;
-  const auto middle = values_ns.begin() + static_cast<std::ptrdiff_t>(values_ns.size() / 2);
-  std::nth_element(values_ns.begin(), middle, values_ns.end());
-  return 1e-6 * static_cast<double>(*middle);
+  return 1e-6 * static_cast<double>(upperMedian(values_ns));
 }
 
 /// Two webcams at 30 Hz that are played by the test's system calls, the right one `skew_ms` later.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angles.h"
 #include "rostest/graph_probe.h"
 #include "sensors/imu/module_angles.h"
 
@@ -46,8 +47,7 @@ TEST(ImuArena, TheHeadingTurnsTheRightWayAndThePathIsRight) {
 
   // The bridge alone: the heading counts from the module's power-on, so only its change is compared.
   ASSERT_GT(imu.size(), 2000U);
-  const double turned =
-      imu::wrapDegrees(headingOf(imu.back().orientation) - headingOf(imu.front().orientation));
+  const double turned = wrapDegrees(headingOf(imu.back().orientation) - headingOf(imu.front().orientation));
   EXPECT_NEAR(turned, headingOf(probe.ground_truth.back().pose.pose.orientation), 3.0);
 }
 

@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "core/optical_axes.h"
 #include "rostest/graph_probe.h"
 #include "stereo_nav/SetPose.h"
 #include "support/fixture_bag.h"
@@ -81,7 +82,7 @@ class OdometryNode : public testing::Test {
 
   static void publishMounting() {
     Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
-    T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    T_base_camera.linear() = opticalToBody();
     geometry_msgs::TransformStamped transform = tf2::eigenToTransform(T_base_camera);
     transform.header.frame_id = "base_link";
     transform.child_frame_id = "camera_left_optical";

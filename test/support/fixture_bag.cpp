@@ -9,6 +9,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "core/base_pose.h"
+#include "core/optical_axes.h"
 #include "stereo_nav/StereoSync.h"
 #include "stereo_nav/ros/topics.h"
 #include "support/textured_room.h"
@@ -28,7 +29,7 @@ ros::Time stampOf(double time_s) {
 /// Camera of the thesis' mounting, 0.283 m above the ground; x right, y down, z forward.
 Eigen::Isometry3d baseToCamera() {
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
-  T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T_base_camera.linear() = opticalToBody();
   T_base_camera.translation() << 0.10, 0.06, 0.283;
   return T_base_camera;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/optical_axes.h"
 #include "ros/bag_file.h"
 #include "sim/image_sensor.h"
 #include "sim/random.h"
@@ -23,7 +24,7 @@ const ros::Time kStart(1000.0);
 /// Rectified left optical frame in the world at a time: half a metre above the floor, looking along x.
 Eigen::Isometry3d poseAt(const Wiggle& wiggle, double time_s) {
   Eigen::Matrix3d R_world_camera;
-  R_world_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  R_world_camera = opticalToBody();
   const Eigen::Vector3d angle =
       kDegree *
       wiggle.amplitude_deg.cwiseProduct((2.0 * M_PI * time_s * wiggle.frequency_hz).array().sin().matrix());

@@ -70,11 +70,4 @@ class BaseOdometry {
   BaseEstimate estimate_;
 };
 
-/// Constant velocity (linear, angular; axes of the moving frame) that makes `motion` in one unit of time: the
-/// logarithm of SE(3).
-Vector6d logarithm(const Eigen::Isometry3d& motion);
-
-/// Takes a small motion expressed in frame b (translation, rotation) into frame a.
-Matrix6d adjoint(const Eigen::Isometry3d& T_a_b);
-
 }  // namespace stereo_nav::estimation

@@ -1,7 +1,8 @@
 #include "nodes/recorder/disk_watch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace stereo_nav::nodes {
 namespace {
@@ -10,13 +11,6 @@ constexpr double kWindow_s = 10.0;
 constexpr double kSilence_s = 5.0;  // the recorder writes chunks of under a second of images
 
 constexpr double kMega = 1e6, kGiga = 1e9;
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 }  // namespace
 
@@ -55,23 +49,23 @@ std::string DiskWatch::text() const {
     case State::kStarting:
       return "recording starts";
     case State::kFull:
-      return format(
-          "the disk is full: %.2f GB free, of which %.2f GB are kept; nothing more is recorded. Delete old "
+      return fmt::format(
+          "the disk is full: {:.2f} GB free, of which {:.2f} GB are kept; nothing more is recorded. Delete old "
           "recordings or record to another disk",
           free_gb, static_cast<double>(reserve_bytes_) / kGiga);
     case State::kSilent:
       return "nothing is written: no message comes. Do the cameras run? Look at `rostopic hz "
              "camera/left/image_raw` and /diagnostics";
     case State::kLow:
-      return format(
-          "the disk is full in %.1f min at %.1f MB/s (%.1f GB free): end the recording soon, delete old "
+      return fmt::format(
+          "the disk is full in {:.1f} min at {:.1f} MB/s ({:.1f} GB free): end the recording soon, delete old "
           "ones, or record mono8 images",
           *secondsLeft() / 60.0, rate_mb_s, free_gb);
     case State::kGood:
       break;
   }
-  return format("recording %.1f MB/s, %.2f GB written, the disk lasts %.0f min (%.1f GB free)", rate_mb_s,
-                static_cast<double>(bytesWritten()) / kGiga, *secondsLeft() / 60.0, free_gb);
+  return fmt::format("recording {:.1f} MB/s, {:.2f} GB written, the disk lasts {:.0f} min ({:.1f} GB free)",
+                     rate_mb_s, static_cast<double>(bytesWritten()) / kGiga, *secondsLeft() / 60.0, free_gb);
 }
 
 }  // namespace stereo_nav::nodes

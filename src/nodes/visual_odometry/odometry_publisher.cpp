@@ -10,12 +10,18 @@
 #include <limits>
 #include <utility>
 
+#include "core/angles.h"
 #include "nodes/visual_odometry/debug_views.h"
 
 namespace stereo_nav::nodes {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+using odometry::State;
+static_assert(static_cast<int>(State::kInitialising) == VoStatus::INITIALISING &&
+                  static_cast<int>(State::kTracking) == VoStatus::TRACKING &&
+                  static_cast<int>(State::kCoasting) == VoStatus::COASTING &&
+                  static_cast<int>(State::kLost) == VoStatus::LOST,
+              "VoStatus.state carries the value of odometry::State");
 
 /// ROS covariances are row-major; these are symmetric.
 void fillCovariance(const Matrix6d& covariance, boost::array<double, 36>& message) {
@@ -110,7 +116,7 @@ void OdometryPublisher::publishStatus(const ros_io::FrameMessages& frame, const 
   auto status = boost::make_shared<VoStatus>();
   status->header.stamp = frame.left_stamp;
   status->header.frame_id = frame.left->header.frame_id;
-  status->state = static_cast<std::uint8_t>(result.state);  // same values as in the message
+  status->state = static_cast<std::uint8_t>(result.state);
   status->reason = reasonOf(output);
   status->features_detected = result.features_detected;
   status->features_tracked = result.features_tracked;
@@ -126,7 +132,7 @@ void OdometryPublisher::publishStatus(const ros_io::FrameMessages& frame, const 
   status->right_offset_sigma_s = nan;
   status->imu_offset_s = nan;
   status->imu_offset_sigma_s = nan;
-  status->rotation_disagreement_deg = static_cast<float>(result.rotation_disagreement_rad * kDegrees);
+  status->rotation_disagreement_deg = static_cast<float>(result.rotation_disagreement_rad * kDegPerRad);
   for (const odometry::StageTime& stage : result.stage_times) {
     status->stage_names.emplace_back(stage.stage);
     status->stage_times_ms.push_back(static_cast<float>(stage.milliseconds));

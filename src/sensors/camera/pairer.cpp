@@ -1,9 +1,10 @@
 #include "sensors/camera/pairer.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <utility>
 #include <vector>
+
+#include "core/statistics.h"
 
 namespace stereo_nav::camera {
 namespace {
@@ -25,10 +26,8 @@ void FramePeriod::add(std::int64_t interval_ns, std::uint32_t frames) {
 std::int64_t FramePeriod::get_ns() const {
   constexpr std::size_t kEnough = 3;
   if (latest_.size() < kEnough) return nominal_ns_;
-  std::vector<std::int64_t> sorted(latest_.begin(), latest_.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+  std::vector<std::int64_t> intervals(latest_.begin(), latest_.end());
+  return upperMedian(intervals);
 }
 
 Pairer::Pairer(std::int64_t nominal_period_ns, std::int64_t max_skew_ns)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angles.h"
+
 namespace stereo_nav::imu {
 namespace {
 

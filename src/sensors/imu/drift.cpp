@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/angles.h"
+
 namespace stereo_nav::imu {
 namespace {
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "stereo_nav/core/lie.h"
+
 namespace stereo_nav::imu {
 
 using Eigen::Vector3d;
@@ -24,8 +26,7 @@ void MahonyFilter::step(const Vector3d& angular_velocity, const Directions& meas
   const Vector3d omega_mes = correction(measured);
   gyro_bias_ -= params_.mahony_ki * dt_s * omega_mes;
   const Vector3d rotation = (angular_velocity - gyro_bias_ + params_.mahony_kp * omega_mes) * dt_s;
-  const double angle = rotation.norm();
-  if (angle > 0.0) q_world_imu_ = q_world_imu_ * Eigen::AngleAxisd(angle, rotation / angle);
+  q_world_imu_ = q_world_imu_ * expQuaternion(rotation);
 }
 
 }  // namespace stereo_nav::imu

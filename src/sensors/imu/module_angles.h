@@ -13,9 +13,6 @@ struct ModuleAngles {
   Eigen::Vector3d vector() const { return {yaw_deg, pitch_deg, roll_deg}; }
 };
 
-/// The same direction within [-180, 180] degrees.
-double wrapDegrees(double angle_deg);
-
 /// Attitude of the IMU frame (front-left-up, REP-103) in a world with z up: the quaternion of the fixed-axis
 /// (x, y, z) Euler angles (roll, -pitch, -yaw).
 /// Yaw 30, pitch 10, roll -5 gives (x, y, z, w) = (-0.0645, -0.0729, -0.2613, 0.9604).

@@ -1,10 +1,12 @@
 #include "tools/check_calibration/check_report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "core/angles.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -14,16 +16,7 @@ using calibration::Criterion;
 using calibration::ViewFigures;
 
 double degrees(double radians) {
-  return radians * 180.0 / M_PI;
-}
-
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-  char text[600];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
+  return radians * kDegPerRad;
 }
 
 /// A number of each view with its mean, standard deviation and range.
@@ -87,8 +80,8 @@ std::vector<std::string> allNotes(const CheckedInput& input, const CalibrationCh
   constexpr double kSkew_s = 0.002;
   if (input.largest_skew_s > kSkew_s) {
     notes.push_back(
-        format("the images of a pair are up to %.0f ms apart: only a board at rest gives true figures",
-               1000.0 * input.largest_skew_s));
+        fmt::format("the images of a pair are up to {:.0f} ms apart: only a board at rest gives true figures",
+                    1000.0 * input.largest_skew_s));
   }
   return notes;
 }
@@ -132,10 +125,11 @@ std::string viewLine(const ViewFigures& view) {
   const auto angles = calibration::boardAngles(view.pose.T_camera_board.linear());
   double squares = 0.0;
   for (const Eigen::Vector4d& residual : view.pose.residual_px) squares += residual.squaredNorm() / 2.0;
-  return format("%-14s%7.3f %7.3f %7.3f %10.4f %7.2f %7.2f %7.2f %9.3f %9.3f\n", view.name.c_str(), p.x(),
-                p.y(), p.z(), view.distance_m(), degrees(angles.yaw_rad), degrees(angles.pitch_rad),
-                degrees(angles.roll_rad),
-                std::sqrt(squares / static_cast<double>(view.pose.residual_px.size())), view.epipolar_rms_px);
+  return fmt::format("{:<14}{:7.3f} {:7.3f} {:7.3f} {:10.4f} {:7.2f} {:7.2f} {:7.2f} {:9.3f} {:9.3f}\n",
+                     view.name, p.x(), p.y(), p.z(), view.distance_m(), degrees(angles.yaw_rad),
+                     degrees(angles.pitch_rad), degrees(angles.roll_rad),
+                     std::sqrt(squares / static_cast<double>(view.pose.residual_px.size())),
+                     view.epipolar_rms_px);
 }
 
 std::string reportText(const CheckedInput& input, const CalibrationCheck& check) {
@@ -144,28 +138,30 @@ std::string reportText(const CheckedInput& input, const CalibrationCheck& check)
   std::string text = "\n" + input.calibration + ", " + std::to_string(rig.rectified.width) + "x" +
                      std::to_string(rig.rectified.height) + "; board of " +
                      std::to_string(input.board.columns) + "x" + std::to_string(input.board.rows) +
-                     format(" corners, %.1f mm: ", 1000.0 * input.board.square_m) +
+                     fmt::format(" corners, {:.1f} mm: ", 1000.0 * input.board.square_m) +
                      std::to_string(check.views.size()) + " of " + std::to_string(input.pairs) + " pairs\n";
-  text +=
-      format("baseline %.2f mm, focal length %.2f px\n", 1000.0 * rig.rectified.baseline_m, rig.rectified.fx);
-  text += format("field of view: left %.1f x %.1f deg, right %.1f x %.1f deg, rectified %.1f x %.1f deg\n\n",
-                 left.horizontal_deg, left.vertical_deg, right.horizontal_deg, right.vertical_deg,
-                 rectified.horizontal_deg, rectified.vertical_deg);
+  text += fmt::format("baseline {:.2f} mm, focal length {:.2f} px\n", 1000.0 * rig.rectified.baseline_m,
+                      rig.rectified.fx);
+  text += fmt::format(
+      "field of view: left {:.1f} x {:.1f} deg, right {:.1f} x {:.1f} deg, rectified {:.1f} x {:.1f} deg\n\n",
+      left.horizontal_deg, left.vertical_deg, right.horizontal_deg, right.vertical_deg,
+      rectified.horizontal_deg, rectified.vertical_deg);
   text += "board, over the views    mean  deviation      least       most\n";
   for (const NamedStatistics& one : boardStatistics(check.views)) {
-    text += format("  %-8s %-4s %13.4f %10.4f %10.4f %10.4f\n", one.name, one.unit, one.statistics.mean,
-                   one.statistics.deviation, one.statistics.least, one.statistics.most);
+    text +=
+        fmt::format("  {:<8} {:<4} {:13.4f} {:10.4f} {:10.4f} {:10.4f}\n", one.name, one.unit,
+                    one.statistics.mean, one.statistics.deviation, one.statistics.least, one.statistics.most);
   }
-  text += format("\ndepth to expect with the disparity noise of %.3f px\n  distance, m    ",
-                 check.disparity_rms_px);
-  for (int depth = 1; depth <= 10; ++depth) text += format("%7d", depth);
+  text += fmt::format("\ndepth to expect with the disparity noise of {:.3f} px\n  distance, m    ",
+                      check.disparity_rms_px);
+  for (int depth = 1; depth <= 10; ++depth) text += fmt::format("{:7}", depth);
   text += "\n  deviation, mm  ";
   for (int depth = 1; depth <= 10; ++depth)
-    text += format("%7.1f", 1000.0 * check.depthNoise_m(rig.rectified, depth));
+    text += fmt::format("{:7.1f}", 1000.0 * check.depthNoise_m(rig.rectified, depth));
   text += "\n\nerror, RMS          found     limit\n";
   for (const Criterion& one : check.criteria) {
-    text += format("  %-14s %8.3f %9.2f %-2s  %s\n", one.name.c_str(), one.value, one.limit, one.unit.c_str(),
-                   one.met() ? "good" : "poor");
+    text += fmt::format("  {:<14} {:8.3f} {:9.2f} {:<2}  {}\n", one.name, one.value, one.limit, one.unit,
+                        one.met() ? "good" : "poor");
   }
   text += "\n" + verdictText(check);
   for (const std::string& note : allNotes(input, check)) text += "note: " + note + "\n";

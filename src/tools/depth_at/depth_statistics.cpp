@@ -1,9 +1,11 @@
 #include "tools/depth_at/depth_statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/statistics.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/recording.h"
 
@@ -15,9 +17,7 @@ std::optional<double> medianDisparity(const cv::Mat& window) {
     if (value > 0.0f) values.push_back(value);
   }
   if (values.empty() || 2 * values.size() < window.total()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upperMedian(values);
 }
 
 cv::Rect windowAround(cv::Point pixel, int size, cv::Size image) {
@@ -34,24 +34,20 @@ void DepthStatistics::add(std::optional<double> depth_m) {
 }
 
 std::string DepthStatistics::text() const {
-  char text[200];
   if (depths_m_.empty()) {
-    std::snprintf(
-        text, sizeof text,
-        "no disparity at the pixel in any of %zu frames: too near for the range searched, hidden from the "
+    return fmt::format(
+        "no disparity at the pixel in any of {} frames: too near for the range searched, hidden from the "
         "right camera, or without texture",
         frames_);
-    return text;
   }
   double sum = 0.0, squares = 0.0;
   for (const double depth_m : depths_m_) sum += depth_m;
   const double n = static_cast<double>(depths_m_.size()), mean = sum / n;
   for (const double depth_m : depths_m_) squares += (depth_m - mean) * (depth_m - mean);
   const auto [least, most] = std::minmax_element(depths_m_.begin(), depths_m_.end());
-  std::snprintf(text, sizeof text,
-                "mean %.3f m, standard deviation %.3f m, from %.3f to %.3f m, in %zu of %zu frames", mean,
-                std::sqrt(squares / n), *least, *most, depths_m_.size(), frames_);
-  return text;
+  return fmt::format(
+      "mean {:.3f} m, standard deviation {:.3f} m, from {:.3f} to {:.3f} m, in {} of {} frames", mean,
+      std::sqrt(squares / n), *least, *most, depths_m_.size(), frames_);
 }
 
 }  // namespace stereo_nav::tools

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/optical_axes.h"
 #include "ros/bag_file.h"
 #include "stereo_nav/StereoSync.h"
 #include "stereo_nav/core/input_error.h"
@@ -29,11 +30,10 @@ struct Pair {
   std::size_t right;
 };
 
-/// Coordinates of the optical axes (x right, y down, z forward) in those of a robot (x forward, y left, z
-/// up).
+/// The base where a layout has none: at the camera, with the axes of a robot.
 Eigen::Isometry3d robotFromOptical() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T.linear() = opticalToBody();
   return T;
 }
 

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "core/angles.h"
 #include "core/atomic_file.h"
 #include "eval/gnuplot.h"
 #include "sensors/imu/allan_deviation.h"
@@ -117,9 +118,9 @@ void plotDrift(const std::vector<imu::AngleSample>& samples, const std::string& 
   const imu::ModuleAngles& first = samples.front().angles;
   for (std::size_t i = 0; i < samples.size(); i += every) {
     const imu::ModuleAngles& a = samples[i].angles;
-    script << samples[i].time_s - samples.front().time_s << " " << imu::wrapDegrees(a.yaw_deg - first.yaw_deg)
-           << " " << imu::wrapDegrees(a.pitch_deg - first.pitch_deg) << " "
-           << imu::wrapDegrees(a.roll_deg - first.roll_deg) << "\n";
+    script << samples[i].time_s - samples.front().time_s << " " << wrapDegrees(a.yaw_deg - first.yaw_deg)
+           << " " << wrapDegrees(a.pitch_deg - first.pitch_deg) << " "
+           << wrapDegrees(a.roll_deg - first.roll_deg) << "\n";
   }
   script
       << "E\nplot $d using 1:2 with lines title 'yaw', $d using 1:3 with lines title 'pitch', $d using 1:4 "
@@ -133,7 +134,7 @@ void reportAllan(const RestRecording& recording, const std::string& folder) {
   std::ostringstream data, plots;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> samples;
-    for (const Eigen::Vector3d& rate : recording.rates) samples.push_back(rate[axis] * 180.0 / M_PI);
+    for (const Eigen::Vector3d& rate : recording.rates) samples.push_back(rate[axis] * kDegPerRad);
     const auto points = imu::allanDeviation(samples, period_s);
     std::printf("  gyroscope %c: noise %.5f deg/s/sqrt(Hz), bias instability %.5f deg/s\n", "xyz"[axis],
                 imu::noiseDensity(points), imu::biasInstability(points));

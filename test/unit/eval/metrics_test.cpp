@@ -74,13 +74,6 @@ TEST(AngleDeg, smallAndLargeAngles) {
   EXPECT_NEAR(angleDeg(pose(0, 0, 0, 180.0).linear()), 180.0, 1e-6);
 }
 
-TEST(Percentile, interpolates) {
-  EXPECT_DOUBLE_EQ(percentile({4.0, 1.0, 3.0, 2.0}, 0.5), 2.5);
-  EXPECT_DOUBLE_EQ(percentile({4.0, 1.0, 3.0, 2.0}, 1.0), 4.0);
-  EXPECT_DOUBLE_EQ(percentile({7.0}, 0.95), 7.0);
-  EXPECT_TRUE(std::isnan(percentile({}, 0.5)));
-}
-
 TEST(Rmse, byHand) {
   EXPECT_DOUBLE_EQ(rmse({{0, 0, 0}, {0, 0, 0}}, {{3, 4, 0}, {0, 0, 1}}), std::sqrt((25.0 + 1.0) / 2.0));
   EXPECT_THROW(rmse({}, {}), std::invalid_argument);

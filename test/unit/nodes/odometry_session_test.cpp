@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/base_pose.h"
+#include "core/optical_axes.h"
 #include "ros/setup_checks.h"
 #include "support/fixture_bag.h"
 #include "support/room_frame.h"
@@ -20,7 +21,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 Eigen::Isometry3d baseToCamera() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T.linear() = opticalToBody();
   T.translation() << 0.10, 0.0, 0.283;
   return T;
 }

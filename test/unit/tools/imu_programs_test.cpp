@@ -11,6 +11,7 @@
 #include <fstream>
 #include <random>
 
+#include "core/angles.h"
 #include "sensors/imu/module_angles.h"
 #include "stereo_nav/core/trajectory.h"
 #include "support/command.h"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 
 /// A robot that turns and sways, `time_s` after the start of its recording.
 imu::ModuleAngles anglesAt(double time_s) {
-  return {imu::wrapDegrees(160.0 + 30.0 * time_s), 4.0 * std::sin(time_s), -3.0 * std::sin(2.0 * time_s)};
+  return {wrapDegrees(160.0 + 30.0 * time_s), 4.0 * std::sin(time_s), -3.0 * std::sin(2.0 * time_s)};
 }
 
 constexpr double kStart_s = 1000.0, kDuration_s = 1.5, kPeriod_s = 0.01;
@@ -75,7 +76,7 @@ class ImuPrograms : public testing::Test {
         continue;
       if (count++ == 0) first_s = time_s;
       const imu::ModuleAngles expected = anglesAt(time_s - first_s);
-      EXPECT_NEAR(imu::wrapDegrees(yaw_deg - expected.yaw_deg), 0.0, 0.01);
+      EXPECT_NEAR(wrapDegrees(yaw_deg - expected.yaw_deg), 0.0, 0.01);
       EXPECT_NEAR(pitch_deg, expected.pitch_deg, 0.01);
       EXPECT_NEAR(roll_deg, expected.roll_deg, 0.01);
     }

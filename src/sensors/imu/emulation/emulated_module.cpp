@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/angles.h"
+
 namespace stereo_nav::imu {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "stereo_nav/core/lie.h"
 #include "stereo_nav/sensors/imu/attitude_filter.h"
 
 namespace stereo_nav::imu {
@@ -15,15 +16,10 @@ using Eigen::Vector3d;
 
 const Vector3d kUpwards(0.0, 0.0, AttitudeFilter::kGravity_m_s2);
 
-Vector3d rotationVector(const Quaterniond& q) {
-  const AngleAxisd turn(q);
-  return turn.axis() * turn.angle();
-}
-
 Vector3d rateOf(const std::function<Quaterniond(double)>& attitude, double time_s) {
   constexpr double kHalf_s = 5e-4;
   const Quaterniond turn = attitude(time_s - kHalf_s).conjugate() * attitude(time_s + kHalf_s);
-  return rotationVector(turn) / (2.0 * kHalf_s);
+  return logRotation(turn) / (2.0 * kHalf_s);
 }
 
 /// The pose at a time, between the two recorded ones around it.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "core/angles.h"
 #include "sensors/imu/angle_framer.h"
 #include "sensors/imu/angle_gate.h"
 #include "sensors/imu/emulation/emulated_module.h"

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "core/angles.h"
 #include "sensors/imu/module_angles.h"
 #include "unit/sensors/imu/attitude_error.h"
 

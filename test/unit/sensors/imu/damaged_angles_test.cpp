@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "core/angles.h"
 #include "sensors/imu/emulation/emulated_module.h"
 #include "sensors/imu/emulation/serial_line.h"
 #include "sensors/imu/frame_decoder.h"

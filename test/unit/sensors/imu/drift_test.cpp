@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "core/angles.h"
 #include "sensors/imu/allan_deviation.h"
 #include "sensors/imu/imu_estimator.h"
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/angles.h"
 #include "sensors/imu/angular_rate.h"
 
 namespace stereo_nav::imu {
