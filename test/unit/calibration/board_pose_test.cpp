@@ -10,7 +10,7 @@
 namespace stereo_nav::calibration {
 namespace {
 
-constexpr double kRadPerDegree = M_PI / 180.0;
+constexpr double kRadPerDeg = M_PI / 180.0;
 
 struct RectifiedCorners {
   std::vector<Eigen::Vector2d> left, right;
@@ -75,9 +75,9 @@ TEST_F(BoardPoseTest, AnglesAreThoseThatTheBoardWasTurnedBy) {
                                          {0.0, 0.0, 170.0},
                                          {-25.0, 35.0, -80.0}}) {
     const BoardAngles angles = boardAngles(test::boardAt(0, 0, 1, yaw, pitch, roll).linear());
-    EXPECT_NEAR(angles.yaw_rad / kRadPerDegree, yaw, 1e-9);
-    EXPECT_NEAR(angles.pitch_rad / kRadPerDegree, pitch, 1e-9);
-    EXPECT_NEAR(angles.roll_rad / kRadPerDegree, roll, 1e-9);
+    EXPECT_NEAR(angles.yaw_rad / kRadPerDeg, yaw, 1e-9);
+    EXPECT_NEAR(angles.pitch_rad / kRadPerDeg, pitch, 1e-9);
+    EXPECT_NEAR(angles.roll_rad / kRadPerDeg, roll, 1e-9);
   }
 }
 
@@ -105,9 +105,9 @@ TEST_F(BoardPoseTest, AnglesOfViewAreThoseOfTheRays) {
   CameraModel ideal = rig_.left;
   ideal.D = cv::Mat::zeros(1, 5, CV_64FC1);
   ideal.K = cv::Matx33d(320, 0, 319.5, 0, 240, 239.5, 0, 0, 1);
-  EXPECT_NEAR(ideal.horizontalView_rad() / kRadPerDegree, 90.0, 1e-3);
-  EXPECT_NEAR(ideal.verticalView_rad() / kRadPerDegree, 90.0, 1e-3);
-  EXPECT_NEAR(rectifiedView_rad(320.0, 319.5, 640) / kRadPerDegree, 90.0, 1e-9);
+  EXPECT_NEAR(ideal.horizontalView_rad() / kRadPerDeg, 90.0, 1e-3);
+  EXPECT_NEAR(ideal.verticalView_rad() / kRadPerDeg, 90.0, 1e-3);
+  EXPECT_NEAR(rectifiedView_rad(320.0, 319.5, 640) / kRadPerDeg, 90.0, 1e-9);
 }
 
 }  // namespace
