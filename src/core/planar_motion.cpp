@@ -11,10 +11,10 @@ struct Arc {
   double across;
 };
 
-constexpr double kSmallAngle_rad = 1e-4;
+constexpr double kSeriesAngle_rad = 1e-4;
 
 Arc arcOf(double angle_rad) {
-  if (std::abs(angle_rad) < kSmallAngle_rad) return {1.0 - angle_rad * angle_rad / 6.0, 0.5 * angle_rad};
+  if (std::abs(angle_rad) < kSeriesAngle_rad) return {1.0 - angle_rad * angle_rad / 6.0, 0.5 * angle_rad};
   return {std::sin(angle_rad) / angle_rad, (1.0 - std::cos(angle_rad)) / angle_rad};
 }
 
@@ -50,7 +50,7 @@ Eigen::Matrix3d leftJacobianPlanar(const Eigen::Vector3d& twist) {
   const double a = twist.z();
   const Arc arc = arcOf(a);
   // (a - sin(a)) / a^2 and (1 - cos(a)) / a^2.
-  const bool small = std::abs(a) < kSmallAngle_rad;
+  const bool small = std::abs(a) < kSeriesAngle_rad;
   const double sine_rest = small ? a / 6.0 : (a - std::sin(a)) / (a * a);
   const double cosine_rest = small ? 0.5 : (1.0 - std::cos(a)) / (a * a);
   Eigen::Matrix3d result;

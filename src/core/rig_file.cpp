@@ -1,16 +1,19 @@
 #include "core/rig_file.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "core/angles.h"
+#include "core/optical_axes.h"
+#include "core/roll_pitch_yaw.h"
 #include "stereo_nav/core/parameters.h"
 
 namespace stereo_nav {
 namespace {
 
-constexpr double kRadPerDeg = M_PI / 180.0;
 constexpr std::array<const char*, 3> kAngles = {"roll_deg", "pitch_deg", "yaw_deg"};
 
 void refuseUnknownSections(const YAML::Node& rig, const std::string& source) {
@@ -35,9 +38,8 @@ std::size_t positionOf(const std::string& text, const YAML::Mark& mark) {
 }
 
 std::string toText(double angle_deg) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", angle_deg);
-  return std::string(text) == "-0.00" ? "0.00" : text;
+  const std::string text = fmt::format("{:.2f}", angle_deg);
+  return text == "-0.00" ? "0.00" : text;
 }
 
 }  // namespace
@@ -56,33 +58,21 @@ void SensorMounting::describe(ParameterVisitor& visitor) {
 Eigen::Isometry3d SensorMounting::T_base_sensor() const {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation() << x_m, y_m, z_m;
-  T.linear() = (Eigen::AngleAxisd(yaw_deg * kRadPerDeg, Eigen::Vector3d::UnitZ()) *
-                Eigen::AngleAxisd(pitch_deg * kRadPerDeg, Eigen::Vector3d::UnitY()) *
-                Eigen::AngleAxisd(roll_deg * kRadPerDeg, Eigen::Vector3d::UnitX()))
-                   .toRotationMatrix();
+  T.linear() = RollPitchYaw::fromDegrees(roll_deg, pitch_deg, yaw_deg).rotation();
   return T;
 }
 
 Eigen::Isometry3d SensorMounting::T_base_optical() const {
-  Eigen::Matrix3d R_body_optical;
-  R_body_optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   Eigen::Isometry3d T = T_base_sensor();
-  T.linear() = T.linear() * R_body_optical;
+  T.linear() = T.linear() * opticalToBody();
   return T;
 }
 
 void SensorMounting::setRotation(const Eigen::Matrix3d& R_base_sensor) {
-  const Eigen::Matrix3d& R = R_base_sensor;
-  constexpr double kVertical = 1e-6;  // horizontal part of the sensor's x axis, which is 1 long
-  const double level = std::hypot(R(0, 0), R(1, 0));
-  pitch_deg = std::atan2(-R(2, 0), level) / kRadPerDeg;
-  if (level < kVertical) {
-    roll_deg = 0.0;
-    yaw_deg = std::atan2(-R(0, 1), R(1, 1)) / kRadPerDeg;
-  } else {
-    roll_deg = std::atan2(R(2, 1), R(2, 2)) / kRadPerDeg;
-    yaw_deg = std::atan2(R(1, 0), R(0, 0)) / kRadPerDeg;
-  }
+  const RollPitchYaw angles = RollPitchYaw::of(R_base_sensor);
+  roll_deg = angles.roll * kDegPerRad;
+  pitch_deg = angles.pitch * kDegPerRad;
+  yaw_deg = angles.yaw * kDegPerRad;
 }
 
 void Mounting::describe(ParameterVisitor& visitor) {

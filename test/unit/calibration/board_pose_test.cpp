@@ -1,3 +1,4 @@
+#include "core/angles.h"
 #include "stereo_nav/calibration/board_pose.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 namespace stereo_nav::calibration {
 namespace {
 
-constexpr double kRadPerDeg = M_PI / 180.0;
+
 
 struct RectifiedCorners {
   std::vector<Eigen::Vector2d> left, right;
