@@ -7,8 +7,8 @@
 
 namespace stereo_nav::sim {
 
-/// What is the same for all tiles of one image: every solid as seen at the instant of each row and sample,
-/// and which part of the image it can cover.
+/// Data that all tiles of one image share: every solid as seen at the instant of each row and sample, and the
+/// part of the image that it can cover.
 class RenderedFrame {
  public:
   RenderedFrame(const Scene& scene, const CameraPath& T_world_camera, const Shutter& shutter, int height,
