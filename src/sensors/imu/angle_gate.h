@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "sensors/imu/angle_framer.h"
+#include "sensors/imu/angle_protocol.h"
 #include "stereo_nav/core/parameter_visitor.h"
 
 namespace stereo_nav::imu {

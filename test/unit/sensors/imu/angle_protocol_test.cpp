@@ -1,10 +1,11 @@
+#include "sensors/imu/angle_protocol.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
 
-#include "sensors/imu/angle_framer.h"
 #include "sensors/imu/angle_gate.h"
 #include "sensors/imu/emulation/emulated_module.h"
 #include "sensors/imu/frame_decoder.h"

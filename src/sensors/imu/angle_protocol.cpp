@@ -1,4 +1,4 @@
-#include "sensors/imu/angle_framer.h"
+#include "sensors/imu/angle_protocol.h"
 
 #include <algorithm>
 #include <cmath>
