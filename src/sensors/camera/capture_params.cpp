@@ -26,7 +26,7 @@ void CaptureParams::describe(ParameterVisitor& visitor) {
   visitor.real("max_skew_s", max_skew_s, {0.0, 1.0}, "s",
                "left and right images further apart in time are no pair; half the frame period loses none",
                Change::kLive);
-  visitEnum(visitor, "stamps", stamps, {{"common", Stamps::Common}, {"true", Stamps::True}},
+  visitEnum(visitor, "stamps", stamps, {{"common", Stamps::kCommon}, {"true", Stamps::kTrue}},
             "common: both images of a pair carry the left one's time; true: each its own");
   visitor.real("exposure_ms", exposure_ms, {-1.0, 1000.0}, "ms",
                "exposure time of both cameras; 0: automatic, -1: as the camera is set", Change::kLive);
