@@ -25,7 +25,7 @@ for protocol in angles:kAngles raw:kRaw; do
   clang++ -std=c++17 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all "${includes[@]}" \
     -DSTEREO_NAV_FUZZ_PROTOCOL="${protocol##*:}" "${sources[@]}" -o "$build/fuzz_$name"
 done
-# fuzz NAME: for the given time, then the corpus anew: few inputs and small, since it is part of the package.
+# fuzz NAME: fuzzes for the given time, then makes the corpus again, with few and small inputs, since it is part of the package.
 fuzz() {
   local name=$1 corpus=$root/test/fuzz/corpus/$1
   mkdir -p "$corpus" "$build/work_$name"

@@ -11,7 +11,7 @@
 namespace stereo_nav::calibration {
 namespace {
 
-/// The board where its corners triangulate to.
+/// The pose of the board from its triangulated corners.
 std::optional<Eigen::Isometry3d> alignTriangulated(const vision::StereoCalibration& calibration,
                                                    const std::vector<Eigen::Vector3d>& corners,
                                                    const std::vector<Eigen::Vector2d>& left,

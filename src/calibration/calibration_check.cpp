@@ -15,7 +15,7 @@ double square(double value) {
   return value * value;
 }
 
-/// Length of all rows and columns of the triangulated board over that of the true one.
+/// Length of all rows and columns of the triangulated board, divided by that of the true one.
 double boardScale(const vision::StereoCalibration& c, const Checkerboard& board,
                   const std::vector<Eigen::Vector2d>& left, const std::vector<Eigen::Vector2d>& right) {
   std::vector<Eigen::Vector3d> points;
@@ -37,7 +37,7 @@ double boardScale(const vision::StereoCalibration& c, const Checkerboard& board,
   return seen_m / true_m;
 }
 
-/// Root of the mean of the squares of a figure over the views, which all have as many corners.
+/// RMS of a figure over the views, which all have the same number of corners.
 double rms(const std::vector<ViewFigures>& views, double ViewFigures::*figure) {
   double squares = 0.0;
   for (const ViewFigures& view : views) squares += square(view.*figure);

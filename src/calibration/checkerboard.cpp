@@ -51,7 +51,7 @@ std::optional<Corners> detect(const cv::Mat& image, const Checkerboard& board, i
   return corners;
 }
 
-/// Whether each corner is about midway between its neighbours. Now and then the detector takes something
+/// Whether each corner lies about midway between its neighbours. Sometimes the detector mistakes something
 /// else, a square away, for an outer corner.
 bool isEven(const Corners& corners, const Checkerboard& board) {
   constexpr double kShare = 0.25;  // of a square; a slanted board near a wide lens comes to 0.1
@@ -70,7 +70,8 @@ bool isEven(const Corners& corners, const Checkerboard& board) {
   return true;
 }
 
-/// The detector may begin at any corner of the board: rows to the right, columns downwards, not mirrored.
+/// Orders the corners: rows to the right, columns downwards, not mirrored. The detector may begin at any
+/// corner of the board.
 void standUpright(Corners& corners, const Checkerboard& board) {
   if (alongRow(corners, board).cross(alongColumn(corners, board)) < 0.0) {
     for (int row = 0; row < board.rows; ++row) {
@@ -127,7 +128,7 @@ std::optional<BoardCorners> findCorners(const cv::Mat& left, const cv::Mat& righ
   if (!left_corners) return std::nullopt;
   auto right_corners = findCorners(right, board);
   if (!right_corners) return std::nullopt;
-  // A board on its side is upright by chance.
+  // Which way is up on a board that stands on its side is arbitrary.
   if (alongRow(*left_corners, board).dot(alongRow(*right_corners, board)) < 0.0) {
     std::reverse(right_corners->begin(), right_corners->end());
   }

@@ -14,7 +14,7 @@ namespace {
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 
-/// Rotation, bias and what is left, for one offset of the stamps.
+/// Rotation, bias and remaining cost for one offset of the stamps.
 struct Alignment {
   Eigen::Matrix3d R_camera_imu = Eigen::Matrix3d::Identity();
   Eigen::Vector3d bias_rad_s = Eigen::Vector3d::Zero();
@@ -22,7 +22,7 @@ struct Alignment {
   double mirrored_cost = std::numeric_limits<double>::infinity();  ///< ... if the IMU's axes were left-handed
 };
 
-/// Closed form: a constant bias drops out when the mean is taken off both rates.
+/// The closed form: a constant bias cancels when the mean is subtracted from both rates.
 Alignment align(const std::vector<Turn>& turns, const ImuTurns& imu, double offset_s) {
   std::vector<Eigen::Vector3d> camera_rates, imu_rates;
   for (const Turn& turn : turns) {
@@ -57,7 +57,7 @@ Alignment align(const std::vector<Turn>& turns, const ImuTurns& imu, double offs
   return result;
 }
 
-/// One state of the refinement and the residuals it leaves.
+/// One state of the refinement and its residuals.
 struct Fit {
   Eigen::Matrix3d R_camera_imu;
   Eigen::Vector3d bias_rad_s;
@@ -132,7 +132,7 @@ Fit refine(const std::vector<Turn>& turns, const ImuTurns& imu, Fit fit, ImuCame
   return fit;
 }
 
-/// About which axes the camera turned, and how fast.
+/// Determines about which axes the camera turned, and how fast.
 void describeMotion(const std::vector<Turn>& turns, ImuCameraRotation& result) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   double squares = 0.0;
@@ -171,7 +171,7 @@ ImuCameraRotation calibrateImuCameraRotation(const std::vector<CameraOrientation
     result.imu_offset_s = step * kGrid_s;
   }
   Fit fit{best.R_camera_imu, best.bias_rad_s, result.imu_offset_s};
-  // A bias of rates is taken off turns to first order: once known, off the rates themselves.
+  // The bias is first subtracted from the turns, to first order; once known, from the rates themselves.
   const bool from_rates = !imu_samples.front().q_world_imu;
   for (int pass = 0; pass < (from_rates ? 3 : 1); ++pass) {
     if (from_rates) {

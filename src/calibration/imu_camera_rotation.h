@@ -10,7 +10,7 @@
 
 namespace stereo_nav::calibration {
 
-/// Orientation of the camera at the time of an image, by vision alone.
+/// The orientation of the camera at the time of an image, from vision alone.
 struct CameraOrientation {
   double time_s;
   Eigen::Matrix3d R_start_camera;
@@ -28,7 +28,7 @@ struct ImuCameraRotationParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// How the IMU is turned against the camera, from turns of the rig that both have seen.
+/// The rotation between IMU and camera, from turns of the rig that both have measured.
 struct ImuCameraRotation {
   Eigen::Matrix3d R_camera_imu = Eigen::Matrix3d::Identity();  ///< IMU frame -> left optical frame
   Eigen::Vector3d sigma_rad = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
@@ -51,9 +51,9 @@ struct ImuCameraRotation {
 /// frames and its axis is rotated by R_camera_imu (Park and Martin, "Robot sensor calibration: solving AX=XB
 /// on the Euclidean group", 1994, for the rotation part; a Wahba problem, solved by SVD, Markley 1988). The
 /// offset of the stamps is searched for on a grid with the closed form, then rotation, bias and offset are
-/// refined together (Gauss-Newton with a Cauchy loss), which also gives the uncertainty.
-/// Attitudes of the samples are used where there are any, otherwise the angular rates, as the odometry does.
-/// Never throws for poor data: `refusal` says what is wrong with it.
+/// refined together (Gauss-Newton with a Cauchy loss), which also gives the uncertainty. The attitudes of the
+/// samples are used if they have any, otherwise the angular rates, as in the odometry. Never throws for poor
+/// data: `refusal` says what is wrong with it.
 ImuCameraRotation calibrateImuCameraRotation(const std::vector<CameraOrientation>& camera,
                                              const std::vector<ImuSample>& imu,
                                              const ImuCameraRotationParams& params = {});

@@ -19,27 +19,28 @@ struct Turn {
   double duration_s() const { return to_s - from_s; }
 };
 
-/// Successive turns of at least `interval_s`, none across two runs.
+/// Successive turns over at least `interval_s` each; no turn spans two runs.
 std::vector<Turn> turnsOf(const std::vector<CameraOrientation>& camera, double interval_s);
 
 /// The IMU's turns over the same intervals.
 class ImuTurns {
  public:
-  /// `bias_rad_s` is taken off the rates.
+  /// `bias_rad_s` is subtracted from the rates.
   ImuTurns(const std::vector<ImuSample>& samples, const Eigen::Vector3d& bias_rad_s);
 
-  /// Nothing where the samples do not cover the interval. `offset_s`: the IMU's stamps are late by it.
+  /// Returns nothing where the samples do not cover the interval. `offset_s`: by how much the IMU's stamps
+  /// are late.
   std::optional<Eigen::Vector3d> turn(const Turn& camera, double offset_s) const;
 
  private:
   RotationHistory history_;
 };
 
-/// Why the data cannot be used; empty if they can be tried.
+/// The reason why the data cannot be used; empty if they can be.
 std::string refuseData(const std::vector<Turn>& turns, const std::vector<ImuSample>& imu,
                        const ImuCameraRotationParams& params);
 
-/// Why the result cannot be used; empty if it can.
+/// The reason why the result cannot be used; empty if it can be.
 std::string refuseResult(const ImuCameraRotation& result, bool mirrored,
                          const ImuCameraRotationParams& params);
 

@@ -12,10 +12,11 @@
 namespace stereo_nav::eval {
 namespace {
 
-/// Fewer cannot be told apart from a chance overlap, and no motion can be aligned.
+/// Fewest frames with ground truth. Fewer may overlap by chance, and do not determine an alignment.
 constexpr std::size_t kMinFramesWithGroundTruth = 3;
 
-/// base_link in odom for every frame; a lost frame keeps the last pose, before the first pose that one holds.
+/// base_link in odom for every frame. A lost frame keeps the last pose; frames before the first pose get the
+/// first pose.
 Poses heldPoses(const std::vector<FrameRecord>& frames) {
   Eigen::Isometry3d held = Eigen::Isometry3d::Identity();
   for (auto frame = frames.rbegin(); frame != frames.rend(); ++frame)
@@ -28,7 +29,7 @@ Poses heldPoses(const std::vector<FrameRecord>& frames) {
   return poses;
 }
 
-/// The frames that have ground truth: their indices, and both poses of base_link.
+/// The frames that have ground truth: their indices, and the estimated and the true poses of base_link.
 struct AssociatedPoses {
   std::vector<std::size_t> frames;
   Poses T_odom_base;
@@ -72,7 +73,7 @@ double pathLength(const Poses& poses) {
   return length_m;
 }
 
-/// Absolute, relative and end errors, of the left camera.
+/// Absolute, relative and end errors of the left camera.
 void addCameraErrors(const AssociatedPoses& associated, const Eigen::Isometry3d& T_base_camera,
                      Evaluation& evaluation) {
   const auto identity = Eigen::Isometry3d::Identity();
@@ -101,7 +102,7 @@ void addCameraErrors(const AssociatedPoses& associated, const Eigen::Isometry3d&
   }
 }
 
-/// Errors along the axes of odom, of base_link.
+/// Errors of base_link along the axes of odom.
 void addBaseErrors(const AssociatedPoses& associated, Evaluation& evaluation) {
   const Eigen::Isometry3d T_odom_world =
       associated.T_odom_base.front() * associated.T_world_base.front().inverse();

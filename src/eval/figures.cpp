@@ -165,7 +165,7 @@ double stageTime(const FrameTiming& timing, const std::string& stage) {
   return total_ms;
 }
 
-/// Stages piled on each other, the last one drawn first so that the earlier ones lie on top of it.
+/// Times of the stages, stacked; the last one is drawn first so that the earlier ones lie on top of it.
 Figure stagesOverTime(const Evaluation& evaluation, const std::vector<FrameRecord>& records) {
   std::vector<FrameTiming> timings;
   for (const auto& record : records) timings.push_back(record.timing);

@@ -14,7 +14,7 @@ struct Figure {
   std::string script;
 };
 
-/// Those pictures that the run has data for.
+/// The pictures for which the run has data.
 std::vector<Figure> makeFigures(const Evaluation& evaluation, const std::vector<FrameRecord>& records);
 
 }  // namespace stereo_nav::eval

@@ -20,15 +20,15 @@ std::string readFile(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Exit status of gnuplot with its three standard streams in files: no shell, no quoting, no pipe to get
-/// stuck in.
+/// Runs gnuplot and returns its exit status. The three standard streams are files, so that no shell, no
+/// quoting and no blocking pipe is involved.
 int spawnGnuplot(const std::string& script_path, const std::string& svg_path, const std::string& log_path) {
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);
   posix_spawn_file_actions_addopen(&streams, 0, script_path.c_str(), O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&streams, 1, svg_path.c_str(), O_WRONLY | O_TRUNC, 0);
   posix_spawn_file_actions_addopen(&streams, 2, log_path.c_str(), O_WRONLY | O_TRUNC, 0);
-  // -d: whatever stands in the user's own start-up file must not change the pictures.
+  // -d: the user's own start-up file must not change the pictures.
   std::string arguments[] = {"gnuplot", "-d"};
   char* argv[] = {arguments[0].data(), arguments[1].data(), nullptr};
   pid_t child = 0;
@@ -46,7 +46,7 @@ int spawnGnuplot(const std::string& script_path, const std::string& svg_path, co
 }  // namespace
 
 std::string runGnuplot(const std::string& script, const std::string& path_prefix) {
-  // Never committed: all three are gone when this function ends.
+  // The three files are never committed, so that they are removed when this function ends.
   const AtomicFile script_file(path_prefix + ".gnuplot");
   const AtomicFile svg_file(path_prefix + ".drawing");
   const AtomicFile log_file(path_prefix + ".log");

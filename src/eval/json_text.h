@@ -22,7 +22,7 @@ class JsonObject {
   }
 
  private:
-  /// Text that is not UTF-8 (file names may be anything) has its odd bytes replaced rather than refused.
+  /// In text that is not valid UTF-8 (file names may hold any bytes) the invalid bytes are replaced.
   static std::string textOf(const nlohmann::json& value) {
     return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }

@@ -11,7 +11,8 @@ using Poses = std::vector<Eigen::Isometry3d>;
 /// estimate aligned first (alignRigidly()) this is the absolute trajectory error.
 double rmse(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b);
 
-/// Those of 0.5, 1, 2, 5, 10, 20, 50, 100, 200 m that lie between 1/12 and 1/2 of the path.
+/// The lengths among 0.5, 1, 2, 5, 10, 20, 50, 100 and 200 m that lie between 1/12 and 1/2 of the length of
+/// the path.
 std::vector<double> segmentLengths(double path_length_m);
 
 /// Error of the motion over pieces of given lengths, as in the KITTI odometry benchmark, but from every

@@ -117,7 +117,7 @@ std::string timingTable(const TimingSummary& timing) {
          "</table>\n";
 }
 
-/// The drawing alone, without the prologue that makes it a file of its own.
+/// The drawing alone, without the XML prologue of a separate file.
 std::string inlineSvg(const std::string& svg) {
   return svg.substr(std::min(svg.find("<svg"), svg.size()));
 }

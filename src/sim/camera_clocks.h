@@ -7,7 +7,7 @@
 
 namespace stereo_nav::sim {
 
-/// When the two cameras take their images. The left camera's clock is the reference.
+/// The times at which the two cameras take their images. The left camera's clock is the reference.
 struct TimingParams {
   double rate_hz = 30.0;
   double skew_ms = 0.0;
@@ -28,8 +28,8 @@ struct PairInstants {
 };
 
 /// All pairs of a recording that starts at 0. Each camera runs on its own; then every left image is paired
-/// with the right image nearest in time, if that one has no nearer left image and is at most half a period
-/// away: what the capture node does with real cameras. Deterministic in `seed`.
+/// with the right image nearest in time, if no other left image is nearer to that one and it is at most half
+/// a period away. The capture node does the same with real cameras. Deterministic in `seed`.
 std::vector<PairInstants> pairInstants(const TimingParams& timing, double duration_s, std::uint64_t seed);
 
 }  // namespace stereo_nav::sim

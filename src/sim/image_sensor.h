@@ -7,7 +7,7 @@
 
 namespace stereo_nav::sim {
 
-/// What both image sensors have in common.
+/// The properties that both image sensors share.
 struct SensorParams {
   double exposure_ms = 12.0;
   double rolling_shutter_ms = 0.0;
@@ -18,7 +18,7 @@ struct SensorParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// What makes two cameras of one type differ.
+/// The properties in which two cameras of one type differ.
 struct CameraResponse {
   double gain = 1.0;
   double offset = 0.0;

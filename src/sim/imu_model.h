@@ -9,7 +9,7 @@
 
 namespace stereo_nav::sim {
 
-/// What the simulated module delivers.
+/// The kind of data that the simulated module delivers.
 enum class ImuKind {
   kNone,
   kPerfect,  ///< attitude and rates without error

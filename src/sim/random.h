@@ -34,7 +34,7 @@ inline double normalDraw(std::uint64_t key, std::uint64_t counter) {
   return radius * std::cos(2.0 * M_PI * uniformDraw(key, 2 * counter + 1));
 }
 
-/// Draws in sequence from one stream, where order is given anyway.
+/// Draws in sequence from one stream, for uses whose order is fixed.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t key) : key_(key) {}
@@ -46,7 +46,7 @@ class RandomStream {
   std::uint64_t counter_ = 0;
 };
 
-/// What the streams are for: no two uses share random numbers.
+/// The uses of random numbers; no two uses share a stream.
 enum class Stream : std::uint64_t { kTexture = 1, kClutter, kClock, kPixelNoise, kImu, kLight };
 
 }  // namespace stereo_nav::sim

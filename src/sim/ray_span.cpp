@@ -13,11 +13,12 @@ constexpr float kMinorFootprint = 0.6f;
 constexpr float kMajorFootprint = 0.25f;
 constexpr float kTapSpacing = 1.5f;  ///< in footprints across; what is more is read from a coarser level
 constexpr int kMaxTaps = 3;
-/// Light on the sides: a window front on one side of the hall, lamps above.
+/// Light on the sides of solids: a window front is on one side of the hall, lamps are above.
 constexpr float kSideX[2] = {0.95f, 0.82f};
 constexpr float kSideY[2] = {0.74f, 1.0f};
 
-/// Entry and exit of kLength rays through the three slabs of a box, or a cylinder's mantle and two ends.
+/// Entry and exit depths of kLength rays through the three slabs of a box, or the mantle and two ends of a
+/// cylinder.
 struct SpanIntervals {
   alignas(16) float near[kLength];
   alignas(16) float far[kLength];
@@ -79,7 +80,7 @@ SurfacePoint onBox(const Solid& solid, const Eigen::Vector3f& p) {
   if (share.z() > share.x() && share.z() > share.y()) {
     return {p.z() > 0.0f ? &solid.top : &solid.floor, p.x(), p.y(), 1.0f, 2};
   }
-  // Each side shows another piece of the texture.
+  // Each side shows a different piece of the texture.
   if (share.x() > share.y()) {
     const bool front = p.x() > 0.0f;
     return {&solid.sides, p.y() + (front ? 1.7f : 0.0f), p.z(), kSideX[front], 0};

@@ -17,7 +17,7 @@ struct RaySpan {
   std::array<int, kLength> hit;      ///< index of the candidate that was hit, -1 for none
 };
 
-/// A solid as seen from one camera pose: takes rays of the camera into the solid's frame.
+/// A solid as seen from one camera pose; transforms rays of the camera into the solid's frame.
 struct Candidate {
   const Solid* solid;
   Eigen::Matrix3f R_solid_camera;
@@ -29,10 +29,10 @@ Candidate makeCandidate(const Solid& solid, const Eigen::Isometry3d& T_world_cam
 /// Largest depth of the span, infinite while a ray has hit nothing.
 float farthestDepth(const RaySpan& span);
 
-/// Enters the hits with `candidate` that are nearer than what `span` holds.
+/// Stores the hits with `candidate` that are nearer than those in `span`.
 void castSpan(const Candidate& candidate, int index, RaySpan& span);
 
-/// How finely a ray's surroundings must be sampled.
+/// How finely the texture around a ray's hit must be sampled.
 struct Footprint {
   float ray_pitch;   ///< distance of neighbouring pixels' rays
   float level_bias;  ///< in [0, 1): fractional pyramid levels are rounded up in this share of the samples

@@ -29,7 +29,7 @@ RenderedFrame::RenderedFrame(const Scene& scene, const CameraPath& T_world_camer
 
 RenderedFrame::Cover RenderedFrame::coverOf(const Candidate& first, const Candidate& last) const {
   constexpr float kNear_m = 0.05f;
-  // The room is behind everything else, so that it is cast last and only where nothing else was hit.
+  // The room lies behind everything else: it is cast last, and only where nothing else was hit.
   if (first.solid->kind == Solid::Kind::kRoom)
     return {-kInfinity, kInfinity, -kInfinity, kInfinity, kInfinity};
   Cover cover{kInfinity, -kInfinity, kInfinity, -kInfinity, kInfinity};

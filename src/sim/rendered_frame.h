@@ -11,8 +11,8 @@ namespace stereo_nav::sim {
 /// Depth of what no ray meets, and the bounds of an empty rectangle.
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What is the same for all tiles of one image: every solid as seen at the instant of each row and sample,
-/// and which part of the image it can cover.
+/// Data that all tiles of one image share: every solid as seen at the instant of each row and sample, and the
+/// part of the image that it can cover.
 class RenderedFrame {
  public:
   RenderedFrame(const Scene& scene, const CameraPath& T_world_camera, const Shutter& shutter, int height,

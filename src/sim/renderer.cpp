@@ -44,7 +44,7 @@ void Renderer::computeRays(const CameraCalibration& calibration) {
     const Eigen::Vector2d offset = offsetInPixel(sample, samples_);
     for (int row = 0; row < height_; ++row) {
       for (int column = 0; column < stride_; ++column) {
-        // Past the right border the last ray is repeated; those samples are thrown away.
+        // Beyond the right border the last ray is repeated; those samples are discarded.
         const Eigen::Vector2d pixel(std::min(column, width_ - 1), row);
         const Eigen::Vector2d ray = calibration.undistort(pixel + offset);
         ray_x_.push_back(static_cast<float>(ray.x()));

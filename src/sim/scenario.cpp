@@ -25,7 +25,7 @@ std::vector<Item> readList(const YAML::Node& file, const char* key, const std::s
   return items;
 }
 
-/// Enters `a.b=value` into the tree.
+/// Sets `a.b=value` in the tree.
 void applyOverride(YAML::Node root, const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {

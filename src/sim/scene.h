@@ -57,7 +57,7 @@ struct RoomParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Objects strewn at random over a rectangle of the floor, between the sizes given. Always the same for the
+/// Objects strewn at random over a rectangle of the floor, between the sizes given. They are the same for the
 /// same world seed.
 struct ClutterParams {
   int count = 10;

@@ -8,10 +8,10 @@
 namespace stereo_nav::sim {
 namespace {
 
-/// Lamps take this long from one level to another.
+/// Time that the lamps take from one level to another.
 constexpr double kFade_s = 0.2;
 
-/// 0 outside the event, 1 inside, with ramps before and after.
+/// The share of an event at a time: 0 outside, 1 inside, with ramps before and after.
 double share(const Event& event, double time_s) {
   return std::clamp(std::min(time_s - event.from_s, event.to_s - time_s) / kFade_s + 1.0, 0.0, 1.0);
 }
@@ -72,7 +72,7 @@ cv::Mat Simulation::image(Side side, std::size_t pair) const {
   const Camera& cam = camera(side);
   const double time_s = imageTime(side, pair);
   cv::Mat light;
-  if (blocked(side, time_s)) {  // a hand on the lens: a little light comes through
+  if (blocked(side, time_s)) {  // as with a hand on the lens, a little light comes through
     light = cv::Mat(cam.calibration.height, cam.calibration.width, CV_32FC1, cv::Scalar(8.0));
   } else {
     const Shutter shutter{time_s, 1e-3 * scenario_.sensor.exposure_ms,

@@ -13,8 +13,8 @@ struct SpeedLimits {
   double variation;  ///< share by which the speed wavers
 };
 
-/// Distance travelled over time along a curve, from rest to rest: as quick as the limits allow, then smoothed
-/// so that the acceleration is continuous.
+/// Distance travelled over time along a curve, from rest to rest. The speed is the highest that the limits
+/// allow, smoothed so that the acceleration is continuous.
 class SpeedProfile {
  public:
   /// `curvature(arc_m)` in 1/m, for arc lengths 0 to `length_m`.

@@ -70,7 +70,7 @@ struct LeafStyle {
   double largest_aspect;
 };
 
-/// Large shapes first, so that small ones are not all buried; grey values in [0, 255].
+/// Draws large shapes first, so that they do not cover all small ones; grey values in [0, 255].
 void paintLeaves(cv::Mat& canvas, RandomStream& random, const LeafStyle& style) {
   std::vector<float> radii;
   for (int i = 0; i < style.count; ++i) {

@@ -43,7 +43,7 @@ class Trajectory::Wait : public Piece {
   double duration_s_;
 };
 
-/// On the spot, with a sinusoidal yaw rate from 0 to the limit and back.
+/// A turn on the spot, with a sinusoidal yaw rate from 0 to the limit and back.
 class Trajectory::Turn : public Piece {
  public:
   Turn(const PlanarPose& start, double angle_rad, double max_rate_rps)
@@ -127,7 +127,7 @@ Eigen::Isometry3d Trajectory::pose(double time_s) const {
   const double local_s = std::clamp(time_s - starts_s_[i], 0.0, pieces_[i]->duration_s());
   const PlanarPose planar = pieces_[i]->at(local_s);
 
-  // Uneven floor: the faster, the more.
+  // The sway of an uneven floor grows with the speed.
   const double sway = motion_.sway_deg * kRadPerDeg * planar.speed_mps / motion_.max_speed_mps;
   const double pitch =
       sway * (0.7 * std::sin(2.0 * M_PI * 1.7 * time_s) + 0.3 * std::sin(2.0 * M_PI * 4.3 * time_s));

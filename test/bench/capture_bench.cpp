@@ -21,7 +21,7 @@
 
 #include "core/statistics.h"
 #include "sensors/camera/decoder.h"
-#include "sensors/camera/pairer.h"
+#include "sensors/camera/left_right_pairer.h"
 #include "sensors/camera/stereo_camera.h"
 #include "unit/sensors/camera/fake_kernel.h"
 
@@ -31,7 +31,7 @@ namespace {
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
 constexpr int kFrames = 60;
-const ImageLayout kLayout{PixelFormat::Mjpg, kWidth, kHeight, 0};
+const ImageLayout kLayout{PixelFormat::kMjpg, kWidth, kHeight, 0};
 
 using Jpeg = std::vector<std::uint8_t>;
 
@@ -59,7 +59,7 @@ std::vector<Jpeg> readFrames(const std::string& video) {
 
 /// Both images of a pair, decoded and paired, as the two capture threads do; CPU time is what both cost.
 void pairOfMjpg(benchmark::State& state) {
-  const auto encoding = state.range(0) == 0 ? Encoding::Bgr8 : Encoding::Mono8;
+  const auto encoding = state.range(0) == 0 ? Encoding::kBgr8 : Encoding::kMono8;
   const std::vector<Jpeg> left = readFrames("robotL.mp4"), right = readFrames("robotR.mp4");
   constexpr std::int64_t kPeriod_ns = 33'333'333;
   Pairer pairer(kPeriod_ns, kPeriod_ns / 2);
@@ -67,8 +67,8 @@ void pairOfMjpg(benchmark::State& state) {
   std::size_t index = 0, bytes = 0;
   for (auto _ : state) {
     time_ns += kPeriod_ns;
-    for (const auto side : {Side::Left, Side::Right}) {
-      const Jpeg& jpeg = (side == Side::Left ? left : right)[index];
+    for (const auto side : {Side::kLeft, Side::kRight}) {
+      const Jpeg& jpeg = (side == Side::kLeft ? left : right)[index];
       Frame frame;
       const auto problem = camera::decode(jpeg.data(), jpeg.size(), kLayout, encoding, frame.image);
       if (!problem.empty()) state.SkipWithError(problem.c_str());
@@ -99,7 +99,7 @@ class PlayedCameras {
     plugIn(0, "usb-fake-1", left_jpeg_, 0);
     plugIn(1, "usb-fake-2", right_jpeg_, skew_ms * 1'000'000);
     config_.left = {
-        "left", kernel_.path(0), {PixelFormat::Mjpg, kWidth, kHeight, 30.0}, Encoding::Bgr8, {}, 4, 1.0};
+        "left", kernel_.path(0), {PixelFormat::kMjpg, kWidth, kHeight, 30.0}, Encoding::kBgr8, {}, 4, 1.0};
     config_.right = config_.left;
     config_.right.device = kernel_.path(1);
   }
@@ -174,7 +174,7 @@ void handOver(benchmark::State& state) {
     const Jpeg& jpeg = cameras.rightJpeg();
     const std::int64_t start_ns = cameras.now_ns();
     DecodedImage image;
-    benchmark::DoNotOptimize(camera::decode(jpeg.data(), jpeg.size(), kLayout, Encoding::Bgr8, image));
+    benchmark::DoNotOptimize(camera::decode(jpeg.data(), jpeg.size(), kLayout, Encoding::kBgr8, image));
     alone_ns.push_back(cameras.now_ns() - start_ns);
   });
   state.counters["pairs"] = static_cast<double>(status.pairing.pairs);

@@ -3,7 +3,7 @@
 
 test/docs/commands.yaml says which and how (there). Each runs in a folder that looks like the top folder of the package
 with what the documents speak of: recordings, a rig file, a home. The commands of a document share a graph, whose master
-is made anew when the next launch file starts.
+is made again when the next launch file starts.
 """
 import os
 import re

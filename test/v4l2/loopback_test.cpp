@@ -45,7 +45,7 @@ class Loopback : public testing::Test {
     config.left.name = "left";
     config.left.device = kLeft;
     config.left.format = {format, kWidth, kHeight, 10.0};
-    config.left.encoding = Encoding::Mono8;
+    config.left.encoding = Encoding::kMono8;
     config.left.stall_timeout_s = 8.0;  // a busy host stops the machine for a while
     config.right = config.left;
     config.right.name = "right";
@@ -65,13 +65,15 @@ class Loopback : public testing::Test {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto left = readCounter(pairs[i].pair.left.image.view());
       const auto right = readCounter(pairs[i].pair.right.image.view());
-      EXPECT_EQ(left, right) << "pair " << i << ", skew " << pairs[i].pair.skew_ns() / 1000 << " us";
+      EXPECT_EQ(left, right) << "pair " << i << ", time offset " << pairs[i].pair.timeOffset_ns() / 1000
+                             << " us";
       if (i > 0) {
         EXPECT_GT(left, previous);
       }
       previous = left;
     }
-    std::cout << pairs.size() << " pairs, last skew " << pairs.back().pair.skew_ns() / 1000 << " us\n";
+    std::cout << pairs.size() << " pairs, last time offset " << pairs.back().pair.timeOffset_ns() / 1000
+              << " us\n";
   }
 
   /// When the left feeder sends one of its next images. A feeder that began at any other time could lie half
@@ -90,7 +92,7 @@ TEST_F(Loopback, PairsMatchForEveryOffset) {
   for (const auto offset : {0ms, 4ms, 8ms, 12ms, 16ms}) {
     SCOPED_TRACE(offset.count());
     feed(V4L2_PIX_FMT_YUYV, offset, kPeriod);
-    start(PixelFormat::Yuyv);
+    start(PixelFormat::kYuyv);
     ASSERT_TRUE(rig_->pairsCome(20));
     expectMatchingCounters(rig_->stop());
     rig_.reset();
@@ -101,28 +103,28 @@ TEST_F(Loopback, PairsMatchForEveryOffset) {
 
 TEST_F(Loopback, PairsMatchWhileTheCamerasDrift) {
   feed(V4L2_PIX_FMT_YUYV, -16ms, kPeriod + 500us);
-  start(PixelFormat::Yuyv);
+  start(PixelFormat::kYuyv);
   ASSERT_TRUE(rig_->pairsCome(60));
-  const double skew_rate = rig_->camera().status().skew_rate;
+  const double offset_rate = rig_->camera().status().time_offset_rate;
   expectMatchingCounters(rig_->stop());
-  std::cout << "skew rate " << skew_rate << " s/s, fed 0.005\n";
-  EXPECT_NEAR(skew_rate, 0.005, 0.002);
+  std::cout << "rate of the time offset " << offset_rate << " s/s, fed 0.005\n";
+  EXPECT_NEAR(offset_rate, 0.005, 0.002);
 }
 
 TEST_F(Loopback, PairsMatchAsMjpgAndTheUnknownClockIsSaid) {
   feed(V4L2_PIX_FMT_MJPEG, 8ms, kPeriod);
-  start(PixelFormat::Any);
+  start(PixelFormat::kAny);
   ASSERT_TRUE(rig_->pairsCome(20));
   const auto status = rig_->camera().status();
   expectMatchingCounters(rig_->stop());
-  EXPECT_EQ(status.left.format.layout.format, PixelFormat::Mjpg);
+  EXPECT_EQ(status.left.format.layout.format, PixelFormat::kMjpg);
   EXPECT_EQ(status.left.undecodable, 0u);
   EXPECT_NE(status.left.clock_warning, "");
 }
 
 TEST_F(Loopback, ACameraThatStopsSendingComesBackWithItsFrames) {
   feed(V4L2_PIX_FMT_YUYV, 0ms, kPeriod);
-  start(PixelFormat::Yuyv);
+  start(PixelFormat::kYuyv);
   ASSERT_TRUE(rig_->pairsCome(5));
   right_->stop();
   ASSERT_TRUE(StereoRig::comesTrue([this] { return rig_->right().stalls >= 1; }));

@@ -41,12 +41,12 @@ TEST_F(Vivid, ComesBackAfterFatalErrorDisconnectAndRefusedStart) {
   ASSERT_TRUE(rig_.pairsCome(5));
   auto since = Clock::now();
   press(kRight, "inject_fatal_streaming_error");
-  ASSERT_TRUE(StereoRig::comesTrue([this] { return rig_.right().state == CameraState::Retrying; }));
+  ASSERT_TRUE(StereoRig::comesTrue([this] { return rig_.right().state == CameraState::kRetrying; }));
   expectPairsAgain(since, "fatal_error");
 
   since = Clock::now();
   press(kRight, "disconnect");
-  ASSERT_TRUE(StereoRig::comesTrue([this] { return rig_.right().state == CameraState::Retrying; }));
+  ASSERT_TRUE(StereoRig::comesTrue([this] { return rig_.right().state == CameraState::kRetrying; }));
   EXPECT_NE(rig_.right().problem.find("unplugged"), std::string::npos) << rig_.right().problem;
   expectPairsAgain(since, "disconnect");
 
@@ -64,7 +64,7 @@ TEST_F(Vivid, ComesBackWhenBothCamerasWereRemovedAndBoundAgain) {
   ASSERT_TRUE(rig_.pairsCome(5));
   writeTo(kDriver + "unbind", "vivid.0");
   ASSERT_TRUE(StereoRig::comesTrue([this] {
-    return rig_.left().state == CameraState::Retrying && rig_.right().state == CameraState::Retrying;
+    return rig_.left().state == CameraState::kRetrying && rig_.right().state == CameraState::kRetrying;
   }));
   std::this_thread::sleep_for(std::chrono::seconds(2));
   writeTo(kDriver + "bind", "vivid.0");

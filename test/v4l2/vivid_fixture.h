@@ -28,8 +28,8 @@ inline StereoConfig configOf(int width, int height) {
   StereoConfig config;
   config.left.name = "left";
   config.left.device = kLeft;
-  config.left.format = {PixelFormat::Yuyv, width, height, 15.0};
-  config.left.encoding = Encoding::Mono8;
+  config.left.format = {PixelFormat::kYuyv, width, height, 15.0};
+  config.left.encoding = Encoding::kMono8;
   config.left.stall_timeout_s = 5.0;  // the machine is emulated: a busy host stops it for a while
   config.right = config.left;
   config.right.name = "right";

@@ -8,7 +8,7 @@
 
 namespace stereo_nav::calibration {
 
-/// What one view of the board says about the calibration.
+/// The figures of the calibration that one view of the board gives.
 struct ViewFigures {
   std::string name;         ///< of the image pair
   BoardPose pose;           ///< of the board in this view
@@ -38,7 +38,7 @@ struct Criterion {
   bool met() const { return value <= limit && value >= -limit; }
 };
 
-/// Everything about a calibration that a set of views tells.
+/// The figures of a calibration from a set of views.
 struct CalibrationCheck {
   std::vector<ViewFigures> views;  ///< one for each view
   double left_lens_px;             ///< RMS over all corners of all views
@@ -69,7 +69,7 @@ struct CheckLimits {
   double scale = 0.01;           ///< of CalibrationCheck::scale_error
 };
 
-/// `views` must not be empty. Corners are needed once more to see which part of the image they cover.
+/// `views` must not be empty. The corners are needed in addition, to see which part of the image they cover.
 CalibrationCheck checkCalibration(const StereoRig& rig, const std::vector<ViewFigures>& views,
                                   const std::vector<BoardCorners>& corners, const CheckLimits& limits = {});
 

@@ -23,7 +23,7 @@ struct Checkerboard {
 /// the order of Checkerboard::corners(); nothing unless all are seen and form an even grid. Found by OpenCV's
 /// detector (below 640 px of width at twice the size if need be) and refined by cornerSubPix within 0.35 of
 /// the distance of the nearest neighbours: a window that reaches into the next square pulls the corner by up
-/// to a pixel. A board that looks the same after half a turn is taken to stand upright.
+/// to a pixel. A board that looks the same after half a turn is assumed to stand upright.
 std::optional<std::vector<cv::Point2f>> findCorners(const cv::Mat& image, const Checkerboard& board);
 
 /// One view of the board by both cameras, raw pixels, equal index = equal corner.
@@ -32,7 +32,7 @@ struct BoardCorners {
   std::vector<cv::Point2f> right;  ///< corners in the right image, px
 };
 
-/// Both images' corners with one order for the two; nothing unless both show the whole board. Throws
+/// The corners in both images, in the same order; nothing unless both show the whole board. Throws
 /// std::invalid_argument for a board of less than 3x3 corners or images that are not CV_8UC1.
 std::optional<BoardCorners> findCorners(const cv::Mat& left, const cv::Mat& right, const Checkerboard& board);
 

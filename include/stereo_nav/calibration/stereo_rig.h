@@ -17,7 +17,7 @@ struct CameraModel {
   cv::Matx33d R;  ///< raw optical -> rectified optical frame
   cv::Matx34d P;  ///< rectified pixels of points in the rectified left optical frame
 
-  /// Where raw pixels lie in the rectified image.
+  /// The positions of raw pixels in the rectified image.
   std::vector<Eigen::Vector2d> rectify(const std::vector<cv::Point2f>& raw_px) const;
 
   /// Angle between the rays of the middles of two opposite edges of the raw image, rad.

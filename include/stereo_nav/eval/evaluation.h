@@ -11,16 +11,16 @@
 
 namespace stereo_nav::eval {
 
-/// What the odometry made of one input frame.
+/// The result of the odometry for one input frame.
 struct FrameRecord {
   double time_s = 0.0;                           ///< stamp of the left image
   std::optional<Eigen::Isometry3d> T_odom_base;  ///< absent: the frame is lost
-  unsigned features = 0;                         ///< that the frame had to work with
+  unsigned features = 0;                         ///< number of features of the frame
   unsigned inliers = 0;                          ///< features that agree with the motion found
   FrameTiming timing;                            ///< how long the frame took
 };
 
-/// All that the errors of a run are computed from.
+/// Everything that the errors of a run are computed from.
 struct EvaluationInput {
   std::string input;                ///< as named on the command line; goes into the summary
   std::string config;               ///< likewise

@@ -8,10 +8,10 @@
 
 namespace stereo_nav::eval {
 
-/// Writes `report.html` (one file, pictures inside) and the same pictures as `*.svg` beside it into
-/// `directory`, which must exist. Returns a one-line warning when pictures are missing from it, e.g. because
-/// gnuplot is not installed; the figures are written all the same. Throws InputError when the directory
-/// cannot be written.
+/// Writes `report.html` (one file that includes the pictures) and the same pictures as `*.svg` files into
+/// `directory`, which must exist. Returns a one-line warning when pictures are missing from the report, e.g.
+/// because gnuplot is not installed; the numbers are written in any case. Throws InputError when the
+/// directory cannot be written.
 ///
 /// Pictures are drawn by the program `gnuplot` (package gnuplot-nox) to SVG: it needs no display and no
 /// graphics library to link, has the same language since long before Ubuntu 20.04, draws in milliseconds what

@@ -25,7 +25,8 @@ struct TimingSummary {
   double disparity_median_ms;  ///< NaN: no disparity map was computed
 };
 
-/// Over the frames of one run, or of several runs put behind each other. All NaN without frames.
+/// Statistics over the frames of one run, or of several runs in succession. All values are NaN without
+/// frames.
 TimingSummary summariseTiming(const std::vector<FrameTiming>& frames);
 
 /// Text of timing.json.

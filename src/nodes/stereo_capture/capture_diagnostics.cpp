@@ -43,15 +43,15 @@ CaptureDiagnostics::CaptureDiagnostics(const ros::NodeHandle& handle, const ros:
                                        Sources sources)
     : sources_(std::move(sources)), updater_(handle, private_handle) {
   updater_.setHardwareID("stereo camera");
-  updater_.add("Left camera", [this](Status& status) { describeCamera(camera::Side::Left, status); });
-  updater_.add("Right camera", [this](Status& status) { describeCamera(camera::Side::Right, status); });
+  updater_.add("Left camera", [this](Status& status) { describeCamera(camera::Side::kLeft, status); });
+  updater_.add("Right camera", [this](Status& status) { describeCamera(camera::Side::kRight, status); });
   updater_.add("Stereo pairs", [this](Status& status) { describePairs(status); });
 }
 
 void CaptureDiagnostics::describeCamera(camera::Side side, Status& status) {
   const auto stereo = sources_.status();
-  const camera::CameraStatus& camera = side == camera::Side::Left ? stereo.left : stereo.right;
-  if (camera.state != camera::CameraState::Streaming) {
+  const camera::CameraStatus& camera = side == camera::Side::kLeft ? stereo.left : stereo.right;
+  if (camera.state != camera::CameraState::kStreaming) {
     status.summary(DiagnosticStatus::ERROR, camera.problem.empty() ? "No image yet" : camera.problem);
   } else {
     status.summary(DiagnosticStatus::OK, "Images are coming");
@@ -88,10 +88,10 @@ void CaptureDiagnostics::describePairs(Status& status) {
   status.add("Right images without partner", alone[1]);
   status.add("Images out of order", stereo.pairing.out_of_order[0] + stereo.pairing.out_of_order[1]);
   status.add("Pairs overtaken by newer ones", stereo.delivered_late);
-  status.addf("Skew, right - left (ms)", "%.3f", 1e3 * stereo.skew_s);
+  status.addf("Skew, right - left (ms)", "%.3f", 1e3 * stereo.time_offset_s);
   status.addf("Largest skew allowed (ms)", "%.3f", 1e3 * stereo.max_skew_s);
-  if (std::isfinite(stereo.skew_rate)) {
-    status.addf("Clock beat, change of skew (ms/s)", "%.4f", 1e3 * stereo.skew_rate);
+  if (std::isfinite(stereo.time_offset_rate)) {
+    status.addf("Clock beat, change of skew (ms/s)", "%.4f", 1e3 * stereo.time_offset_rate);
   }
   status.addf("Latency, dequeued to published (ms)", "%.2f", 1e3 * stereo.latency_s);
 }

@@ -28,9 +28,9 @@ ros_io::CaptureSetup readSetup(const ros::NodeHandle& private_handle) {
 }
 
 void writeLog(camera::Severity severity, const std::string& text) {
-  if (severity == camera::Severity::Info) ROS_INFO_STREAM(text);
-  if (severity == camera::Severity::Warning) ROS_WARN_STREAM(text);
-  if (severity == camera::Severity::Error) ROS_ERROR_STREAM(text);
+  if (severity == camera::Severity::kInfo) ROS_INFO_STREAM(text);
+  if (severity == camera::Severity::kWarning) ROS_WARN_STREAM(text);
+  if (severity == camera::Severity::kError) ROS_ERROR_STREAM(text);
 }
 
 ros::Time toRosTime(std::int64_t nanoseconds) {
@@ -68,7 +68,7 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
     return publisherOf(side).calibrationProblem(params_.width, params_.height);
   };
   sources.calibration_warning = [this](camera::Side side) { return publisherOf(side).calibrationWarning(); };
-  for (const camera::Side side : {camera::Side::Left, camera::Side::Right}) {
+  for (const camera::Side side : {camera::Side::kLeft, camera::Side::kRight}) {
     const std::string warning = sources.calibration_warning(side);
     if (!warning.empty()) ROS_WARN_STREAM(warning);
   }
@@ -76,7 +76,7 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
   diagnostics_ = std::make_unique<CaptureDiagnostics>(handle_, private_handle_, sources);
   if (setup_.params.load_image_proc) {
     image_proc_ =
-        std::make_unique<ros_io::ImageProcLoader>(params_.stamps == camera::CaptureParams::Stamps::Common,
+        std::make_unique<ros_io::ImageProcLoader>(params_.stamps == camera::CaptureParams::Stamps::kCommon,
                                                   ros_io::readDisparityParams(private_handle_));
   }
   live_parameters_ = std::make_unique<ros_io::LiveParameters<ros_io::StereoCaptureParams>>(
@@ -95,7 +95,7 @@ void StereoCaptureNode::publish(camera::StereoImages images) {
   auto& [left, right] = images.pair;
   const ros::Time left_time = toRosTime(clock_.toRos(left.time_ns));
   const ros::Time right_time = toRosTime(clock_.toRos(right.time_ns));
-  const bool common = params_.stamps == camera::CaptureParams::Stamps::Common;
+  const bool common = params_.stamps == camera::CaptureParams::Stamps::kCommon;
   // First what says how the images belong together: then nobody has to wait for it.
   publishSync(images, left_time, right_time);
   left_publisher_.publish(left, left_time);
@@ -110,8 +110,8 @@ void StereoCaptureNode::publishSync(const camera::StereoImages& images, const ro
   sync.header.frame_id = frame_id_;
   sync.left_stamp = left;
   sync.right_stamp = right;
-  sync.skew_s = 1e-9 * static_cast<double>(pair.skew_ns());
-  sync.skew_rate = images.skew_rate;
+  sync.skew_s = 1e-9 * static_cast<double>(pair.timeOffset_ns());
+  sync.skew_rate = images.time_offset_rate;
   sync.left_sequence = pair.left.sequence;
   sync.right_sequence = pair.right.sequence;
   sync.left_lost = pair.left.lost;
@@ -131,7 +131,7 @@ void StereoCaptureNode::followSystemClock() {
 }
 
 void StereoCaptureNode::applyLive(const camera::CaptureParams& params) {
-  camera_->setMaxSkew(params.max_skew_s);
+  camera_->setMaxTimeOffset(params.max_skew_s);
   for (const auto& setting : camera::exposureControls(params.exposure_ms, params.gain)) {
     camera_->left().setControl(setting.name, setting.value);
     if (!params_.match_exposure) camera_->right().setControl(setting.name, setting.value);
@@ -139,8 +139,8 @@ void StereoCaptureNode::applyLive(const camera::CaptureParams& params) {
 }
 
 void StereoCaptureNode::handleTimer(const ros::WallTimerEvent&) {
-  tellCalibrationProblem(camera::Side::Left);
-  tellCalibrationProblem(camera::Side::Right);
+  tellCalibrationProblem(camera::Side::kLeft);
+  tellCalibrationProblem(camera::Side::kRight);
   diagnostics_->update();
 }
 

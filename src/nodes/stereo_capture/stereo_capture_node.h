@@ -31,7 +31,7 @@ class StereoCaptureNode {
   void handleTimer(const ros::WallTimerEvent&);
   void tellCalibrationProblem(camera::Side side);
   CameraPublisher& publisherOf(camera::Side side) {
-    return side == camera::Side::Left ? left_publisher_ : right_publisher_;
+    return side == camera::Side::kLeft ? left_publisher_ : right_publisher_;
   }
 
   ros::NodeHandle handle_;

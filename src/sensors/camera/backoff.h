@@ -5,8 +5,8 @@
 
 namespace stereo_nav::camera {
 
-/// Waiting times between attempts: soon at first, then longer, never above a bound that keeps a camera's
-/// return quick (it must be back in pairs within 3 s).
+/// Waiting times between attempts: short at first, then longer. They stay below a bound, so that a camera
+/// that returns delivers pairs again within 3 s.
 class Backoff {
  public:
   using Duration = std::chrono::milliseconds;

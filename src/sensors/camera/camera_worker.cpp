@@ -61,10 +61,11 @@ void CameraWorker::run() {
       noteFailure(error);
     }
   } while (sleepUnlessStopped(backoff_.next()));
-  update([](CameraStatus& status) { status.state = CameraState::Closed; });
+  update([](CameraStatus& status) { status.state = CameraState::kClosed; });
 }
 
-/// At its port, once it was seen; a name from /dev/v4l/by-id means the camera itself, wherever it is now.
+/// Looks at the port of the camera once the camera was seen there. A name from /dev/v4l/by-id means the
+/// camera itself, at whatever port it is now.
 FoundDevice CameraWorker::locate() {
   const bool by_id = config_.device.find("/by-id/") != std::string::npos;
   return seen_before_ && !by_id ? finder_.findAgain(*seen_before_) : finder_.find(config_.device);
@@ -105,10 +106,10 @@ void CameraWorker::stream(V4l2Device& device) {
       if (kernel_.monotonicNow() - latest_ns < stall_ns) continue;
       update([](CameraStatus& status) { ++status.stalls; });
       throw CaptureError(
-          Step::Wait, 0,
+          Step::kWait, 0,
           device.path() + ": no image for " + std::to_string(config_.stall_timeout_s) +
               " s: the camera stopped sending, as cheap ones do on a weak hub or a long cable; it is opened "
-              "anew");
+              "again");
     }
     latest_ns = kernel_.monotonicNow();
     const auto newest = takeNewest(device);
@@ -133,7 +134,7 @@ std::optional<LentBuffer> CameraWorker::takeNewest(V4l2Device& device) {
       status.lost = sequence_.lost();
       status.flagged_broken += broken ? 1 : 0;
       status.skipped += overtakes ? 1 : 0;
-      status.rate_hz = rate_.get_hz(kernel_.monotonicNow());
+      status.rate_hz = rate_.rate_hz(kernel_.monotonicNow());
     });
   }
   return newest;
@@ -171,7 +172,7 @@ void CameraWorker::setControl(const std::string& name, std::int32_t value) {
 
 void CameraWorker::applyControls(V4l2Device& device, const std::vector<ControlSetting>& settings) {
   const std::vector<std::string> warnings = device.controls().apply(settings);
-  for (const auto& warning : warnings) log_(Severity::Warning, config_.name + " camera: " + warning);
+  for (const auto& warning : warnings) log_(Severity::kWarning, config_.name + " camera: " + warning);
   update([&](CameraStatus& status) {
     status.control_warnings.insert(status.control_warnings.end(), warnings.begin(), warnings.end());
   });
@@ -183,7 +184,7 @@ void CameraWorker::readExposure(V4l2Device& device) {
   update([&](CameraStatus& status) {
     status.exposure = reading.exposure;
     status.gain = reading.gain;
-    status.exposure_untold = reading.untold;
+    status.exposure_unknown = reading.untold;
   });
 }
 
@@ -191,18 +192,18 @@ void CameraWorker::noteUndecodable(const std::string& problem, std::int64_t now_
   update([](CameraStatus& status) { ++status.undecodable; });
   if (now_ns < next_undecodable_log_ns_) return;
   next_undecodable_log_ns_ = now_ns + kLogInterval_ns;
-  log_(Severity::Warning, config_.name + " camera: image dropped: " + problem +
-                              "; now and then this is normal for USB, often it means a bad cable or hub");
+  log_(Severity::kWarning, config_.name + " camera: image dropped: " + problem +
+                               "; now and then this is normal for USB, often it means a bad cable or hub");
 }
 
 void CameraWorker::noteFailure(const CaptureError& error) {
   const std::string problem = error.what();
   if (problem != logged_problem_) {
-    log_(Severity::Error, config_.name + " camera: " + problem + " (trying again)");
+    log_(Severity::kError, config_.name + " camera: " + problem + " (trying again)");
   }
   logged_problem_ = problem;
   update([&](CameraStatus& status) {
-    status.state = CameraState::Retrying;
+    status.state = CameraState::kRetrying;
     status.failed_attempts += frames_flow_ ? 0 : 1;
     status.problem = problem;
     status.rate_hz = 0.0;
@@ -215,16 +216,16 @@ void CameraWorker::noteFirstFrame() {
   logged_problem_.clear();
   const bool again = starts_++ > 0;
   if (!clock_.warning().empty() && !again) {
-    log_(Severity::Warning, config_.name + " camera: " + clock_.warning());
+    log_(Severity::kWarning, config_.name + " camera: " + clock_.warning());
   }
   update([&](CameraStatus& status) {
-    status.state = CameraState::Streaming;
+    status.state = CameraState::kStreaming;
     status.problem.clear();
     status.clock_warning = clock_.warning();
     status.reconnections += again ? 1 : 0;
   });
-  log_(Severity::Info, config_.name + " camera: images from " + seen_before_->card + ", " +
-                           seen_before_->path + (again ? " again" : ""));
+  log_(Severity::kInfo, config_.name + " camera: images from " + seen_before_->card + ", " +
+                            seen_before_->path + (again ? " again" : ""));
   if (!again) warnOfAnotherRate();
   on_start_();
 }
@@ -236,7 +237,7 @@ void CameraWorker::warnOfAnotherRate() {
   text << config_.name << " camera: runs at " << format_.rate_hz << " Hz instead of " << wanted_hz << ": in "
        << fourccText(fourccOf(format_.layout.format)) << " " << format_.layout.width << "x"
        << format_.layout.height << " it has no such rate; `rosrun stereo_nav list_cameras` shows which";
-  log_(Severity::Warning, text.str());
+  log_(Severity::kWarning, text.str());
 }
 
 bool CameraWorker::sleepUnlessStopped(Backoff::Duration duration) {

@@ -24,7 +24,7 @@
 
 namespace stereo_nav::camera {
 
-enum class Severity { Info, Warning, Error };
+enum class Severity { kInfo, kWarning, kError };
 using Log = std::function<void(Severity, const std::string&)>;
 
 /// What one camera is asked for.
@@ -32,18 +32,18 @@ struct CameraConfig {
   std::string name;    ///< for messages: "left" or "right"
   std::string device;  ///< /dev/videoN, a link to one, or a bus_info
   FormatRequest format;
-  Encoding encoding = Encoding::Bgr8;
+  Encoding encoding = Encoding::kBgr8;
   std::vector<ControlSetting> controls;
   int buffers = 4;
-  double stall_timeout_s = 1.0;    ///< without a frame for so long, the camera is opened anew
-  double rolling_shutter_s = 0.0;  ///< from the first row to the last
+  double stall_timeout_s = 1.0;    ///< the camera is opened again after this time without a frame
+  double rolling_shutter_s = 0.0;  ///< time from the first row of an image to the last one
 };
 
-enum class CameraState { Closed, Retrying, Streaming };
+enum class CameraState { kClosed, kRetrying, kStreaming };
 
-/// A snapshot for diagnostics. Counts are since the start of the program.
+/// A snapshot for diagnostics. Counts begin at the start of the program.
 struct CameraStatus {
-  CameraState state = CameraState::Closed;
+  CameraState state = CameraState::kClosed;
   FoundDevice device;
   ActiveFormat format;
   double rate_hz = 0.0;               ///< delivered, over the last second
@@ -51,21 +51,22 @@ struct CameraStatus {
   std::uint64_t lost = 0;             ///< gaps in the driver's counter
   std::uint64_t flagged_broken = 0;   ///< buffers that the driver flagged as broken
   std::uint64_t undecodable = 0;      ///< corrupt JPEG or too little data
-  std::uint64_t skipped = 0;          ///< good, but a newer one was there already
-  std::uint64_t stalls = 0;           ///< times no frame came within the time-out
-  std::uint64_t reconnections = 0;    ///< times that frames came again after a failure
+  std::uint64_t skipped = 0;          ///< good frames that were dropped because a newer one was there already
+  std::uint64_t stalls = 0;           ///< how often no frame came within the time-out
+  std::uint64_t reconnections = 0;    ///< how often frames came again after a failure
   std::uint64_t failed_attempts = 0;  ///< openings that failed
   std::string problem;                ///< the latest failure; empty while all is well
   std::string clock_warning;          ///< doubts about the driver's stamps
   std::vector<std::string> control_warnings;
-  std::optional<std::int32_t> exposure;  ///< control exposure_time_absolute, 100 us; where the camera tells
+  std::optional<std::int32_t> exposure;  ///< exposure_time_absolute, 100 us; if reported
   std::optional<std::int32_t> gain;
-  bool exposure_untold = false;  ///< automatic, and the camera does not tell which time it chose
-  double decode_time_s = 0.0;    ///< of the latest frame, without taking it from the driver
+  bool exposure_unknown = false;  ///< automatic, and the camera does not report the time that it chose
+  double decode_time_s = 0.0;     ///< of the latest frame; taking it from the driver is not included
 };
 
-/// One camera and its thread: opens, configures, captures the newest frames, decodes them and hands them on;
-/// after any failure closes, waits a little longer each time, and looks for the camera at its port again.
+/// One camera and its thread. The thread opens and configures the camera, captures the newest frames, decodes
+/// them and hands them on. After any failure it closes the camera, waits (a little longer each time), and
+/// looks for the camera at its port again.
 class CameraWorker {
  public:
   /// Called on the worker's thread with every good frame.
@@ -80,11 +81,11 @@ class CameraWorker {
   CameraWorker& operator=(const CameraWorker&) = delete;
 
   void start();
-  /// Returns when the thread has ended; at most one poll (100 ms) and one decode later.
+  /// Returns when the thread has ended, which takes at most one poll (100 ms) and one decode.
   void stop();
 
   CameraStatus status() const;
-  /// Applied soon, and again whenever the camera is opened.
+  /// The worker's thread applies the value soon, and again whenever the camera is opened.
   void setControl(const std::string& name, std::int32_t value);
 
  private:
@@ -110,7 +111,7 @@ class CameraWorker {
   const StartSink on_start_;
   const Log log_;
 
-  // The thread's own.
+  // Used by the thread only.
   std::optional<FoundDevice> seen_before_;
   ActiveFormat format_;
   DecodedImage prepared_;  ///< memory for the next image

@@ -18,27 +18,27 @@ namespace {
 
 std::string actionText(Step step) {
   switch (step) {
-    case Step::Find:
+    case Step::kFind:
       return "finding the camera";
-    case Step::Open:
+    case Step::kOpen:
       return "opening the camera";
-    case Step::Query:
+    case Step::kQuery:
       return "asking for its capabilities";
-    case Step::SetFormat:
+    case Step::kSetFormat:
       return "setting the image format";
-    case Step::SetRate:
+    case Step::kSetRate:
       return "setting the frame rate";
-    case Step::GetBuffers:
+    case Step::kGetBuffers:
       return "getting image buffers from the driver";
-    case Step::StreamOn:
+    case Step::kStreamOn:
       return "starting the stream";
-    case Step::Wait:
+    case Step::kWait:
       return "waiting for an image";
-    case Step::Dequeue:
+    case Step::kDequeue:
       return "taking an image from the driver";
-    case Step::Queue:
+    case Step::kQueue:
       return "giving a buffer back to the driver";
-    case Step::Control:
+    case Step::kControl:
       return "setting a control";
   }
   return "using the camera";
@@ -66,7 +66,7 @@ std::string adviceFor(Step step, int error_number, const std::string& path) {
   if (error_number == ENODEV || error_number == ENXIO) {
     return "the camera was unplugged or its driver has gone; check cable, hub and power";
   }
-  if (step == Step::StreamOn) return streamOnAdvice(error_number, path);
+  if (step == Step::kStreamOn) return streamOnAdvice(error_number, path);
   switch (error_number) {
     case EACCES:
     case EPERM:

@@ -7,17 +7,17 @@ namespace stereo_nav::camera {
 
 /// What was being done with a camera when it failed.
 enum class Step {
-  Find,
-  Open,
-  Query,
-  SetFormat,
-  SetRate,
-  GetBuffers,
-  StreamOn,
-  Wait,
-  Dequeue,
-  Queue,
-  Control
+  kFind,
+  kOpen,
+  kQuery,
+  kSetFormat,
+  kSetRate,
+  kGetBuffers,
+  kStreamOn,
+  kWait,
+  kDequeue,
+  kQueue,
+  kControl
 };
 
 /// A camera that cannot be used now. The message says what was seen, the likely cause and the remedy.
@@ -37,8 +37,8 @@ class CaptureError : public std::runtime_error {
 /// Explains a failed system call on the camera `path`; `details` tells what was asked for, e.g. the format.
 CaptureError explainFailure(Step step, int error_number, const std::string& path, const std::string& details);
 
-/// The processes that have `path` open, e.g. "guvcview (pid 4711)"; empty when none can be seen (those of
-/// other users need root).
+/// The processes that have `path` open, e.g. "guvcview (pid 4711)". Empty when none can be seen; to see those
+/// of other users takes root.
 std::string processesUsing(const std::string& path);
 
 }  // namespace stereo_nav::camera

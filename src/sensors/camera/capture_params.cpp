@@ -11,14 +11,14 @@ void CaptureParams::describe(ParameterVisitor& visitor) {
   visitor.integer("height", height, {16, 8192}, "px", "image height");
   visitor.real("rate_hz", rate_hz, {0.1, 1000.0}, "Hz", "frame rate asked from both cameras");
   visitEnum(visitor, "format", format,
-            {{"any", PixelFormat::Any},
-             {"mjpg", PixelFormat::Mjpg},
-             {"yuyv", PixelFormat::Yuyv},
-             {"uyvy", PixelFormat::Uyvy},
-             {"grey", PixelFormat::Grey},
-             {"nv12", PixelFormat::Nv12}},
-            "what the cameras send; any takes the first that a camera has, in this order");
-  visitEnum(visitor, "encoding", encoding, {{"bgr8", Encoding::Bgr8}, {"mono8", Encoding::Mono8}},
+            {{"any", PixelFormat::kAny},
+             {"mjpg", PixelFormat::kMjpg},
+             {"yuyv", PixelFormat::kYuyv},
+             {"uyvy", PixelFormat::kUyvy},
+             {"grey", PixelFormat::kGrey},
+             {"nv12", PixelFormat::kNv12}},
+            "what the cameras send; any takes the first of the others, in this order, that a camera has");
+  visitEnum(visitor, "encoding", encoding, {{"bgr8", Encoding::kBgr8}, {"mono8", Encoding::kMono8}},
             "encoding of the published images; mono8 needs about half the time");
   visitor.integer("buffers", buffers, {2, 32}, "", "image buffers asked from each driver");
   visitor.real("stall_timeout_s", stall_timeout_s, {0.1, 60.0}, "s",
@@ -26,16 +26,16 @@ void CaptureParams::describe(ParameterVisitor& visitor) {
   visitor.real("max_skew_s", max_skew_s, {0.0, 1.0}, "s",
                "left and right images further apart in time are no pair; half the frame period loses none",
                Change::kLive);
-  visitEnum(visitor, "stamps", stamps, {{"common", Stamps::Common}, {"true", Stamps::True}},
+  visitEnum(visitor, "stamps", stamps, {{"common", Stamps::kCommon}, {"true", Stamps::kTrue}},
             "common: both images of a pair carry the left one's time; true: each its own");
   visitor.real("exposure_ms", exposure_ms, {-1.0, 1000.0}, "ms",
                "exposure time of both cameras; 0: automatic, -1: as the camera is set", Change::kLive);
   visitor.integer("gain", gain, {-1, 10000}, "",
                   "gain of both cameras in the driver's units; -1: as the camera is set", Change::kLive);
   visitor.flag("match_exposure", match_exposure,
-               "the right camera follows the exposure time and gain that the left one tells");
+               "the right camera follows the exposure time and gain that the left one reports");
   visitor.real("rolling_shutter_ms", rolling_shutter_ms, {0.0, 200.0}, "ms",
-               "time from the first row of an image to its last, of both cameras; 0: global shutter");
+               "time from the first row of an image to its last, for both cameras; 0: global shutter");
 }
 
 StereoConfig CaptureParams::toConfig() const {

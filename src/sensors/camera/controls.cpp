@@ -7,7 +7,7 @@
 namespace stereo_nav::camera {
 namespace {
 
-/// Names before and since Linux 5.13.
+/// Names before Linux 5.13, and the names since.
 const std::vector<std::pair<std::string, std::string>> kRenamed = {
     {"exposure_auto", "auto_exposure"},
     {"exposure_auto_priority", "exposure_dynamic_framerate"},

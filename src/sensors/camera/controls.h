@@ -6,7 +6,7 @@
 
 namespace stereo_nav::camera {
 
-/// One control of a camera, as VIDIOC_QUERYCTRL tells it.
+/// One control of a camera, as VIDIOC_QUERYCTRL describes it.
 struct Control {
   std::string name;  ///< as v4l2-ctl writes it, e.g. `exposure_time_absolute`
   std::uint32_t id = 0;
@@ -19,7 +19,7 @@ struct Control {
   std::vector<std::string> menu;  ///< "index: text" of each entry
 };
 
-/// A wanted value.
+/// The value that a control shall have.
 struct ControlSetting {
   std::string name;
   std::int32_t value = 0;
@@ -29,17 +29,17 @@ struct ControlSetting {
 /// exposure_auto_priority.
 std::string controlName(const std::string& description);
 
-/// All names of the control: kernel 5.13 renamed several (exposure_auto is auto_exposure since). The name
-/// itself comes first.
+/// All names of the control, beginning with `name` itself. Linux 5.13 renamed several controls, e.g.
+/// exposure_auto to auto_exposure.
 std::vector<std::string> controlAliases(const std::string& name);
 
-/// The control called `name` by its old or new name; nullptr when the camera has none.
+/// The control whose old or new name is `name`; nullptr when the camera has none.
 const Control* findControl(const std::vector<Control>& controls, const std::string& name);
 
-/// Automatic modes first: a camera refuses or ignores a manual value while the automatic is on.
+/// Puts automatic modes first: a camera refuses or ignores a manual value while its automatic mode is on.
 std::vector<ControlSetting> inOrderOfSetting(std::vector<ControlSetting> settings);
 
-/// Replaces the setting of the same control, be it by its old or its new name, or adds it.
+/// Replaces the setting of the same control, whether given by its old or its new name, or adds it.
 void setIn(std::vector<ControlSetting>& settings, const ControlSetting& setting);
 
 }  // namespace stereo_nav::camera

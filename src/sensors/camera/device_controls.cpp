@@ -55,7 +55,7 @@ std::vector<std::string> DeviceControls::menuOf(const Control& control) const {
 std::int32_t DeviceControls::get(const Control& control) const {
   v4l2_control value{};
   value.id = control.id;
-  descriptor_.callOrThrow(VIDIOC_G_CTRL, &value, Step::Control, "reading " + control.name);
+  descriptor_.callOrThrow(VIDIOC_G_CTRL, &value, Step::kControl, "reading " + control.name);
   return value.value;
 }
 
@@ -63,7 +63,7 @@ std::int32_t DeviceControls::set(const Control& control, std::int32_t value) con
   v4l2_control setting{};
   setting.id = control.id;
   setting.value = value;
-  descriptor_.callOrThrow(VIDIOC_S_CTRL, &setting, Step::Control,
+  descriptor_.callOrThrow(VIDIOC_S_CTRL, &setting, Step::kControl,
                           control.name + " = " + std::to_string(value));
   return control.type == V4L2_CTRL_TYPE_BUTTON ? value : get(control);
 }

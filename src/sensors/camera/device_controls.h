@@ -18,7 +18,7 @@ class DeviceControls {
 
   /// Asked from the driver on first use.
   const std::vector<Control>& list();
-  /// The control called `name` by its old or new name; nullptr when the camera has none.
+  /// The control whose old or new name is `name`; nullptr when the camera has none.
   const Control* find(const std::string& name) { return findControl(list(), name); }
 
   std::int32_t get(const Control& control) const;

@@ -24,7 +24,8 @@ int videoNumber(const std::string& name) {
   return number ? std::atoi(name.c_str() + kPrefix.size()) : -1;
 }
 
-/// A camera that is there but cannot be opened, e.g. for want of permission, may be the one that is missed.
+/// A camera that is connected but cannot be opened, e.g. without the permission, may be the one that is
+/// looked for.
 std::string refusalsText(const std::vector<std::string>& refused) {
   std::string text;
   for (const auto& reason : refused) text += (text.empty() ? ". It may be one of these: " : "; ") + reason;
@@ -62,8 +63,8 @@ std::vector<FoundDevice> DeviceFinder::list(std::vector<std::string>* refused) c
       auto device = describe(path);
       devices.push_back(std::move(device));
     } catch (const CaptureError& error) {
-      // Metadata nodes and encoders are no cameras: nothing to say about them.
-      if (refused != nullptr && error.step() == Step::Open) refused->push_back(error.what());
+      // Metadata nodes and encoders are no cameras and are not reported.
+      if (refused != nullptr && error.step() == Step::kOpen) refused->push_back(error.what());
     }
   }
   return devices;
@@ -72,7 +73,7 @@ std::vector<FoundDevice> DeviceFinder::list(std::vector<std::string>* refused) c
 FoundDevice DeviceFinder::find(const std::string& name) const {
   std::error_code none;
   if (name.empty()) {
-    throw CaptureError(Step::Find, 0,
+    throw CaptureError(Step::kFind, 0,
                        "no camera given; `rosrun stereo_nav list_cameras` shows the names to choose from");
   }
   if (name.front() == '/') {
@@ -85,7 +86,7 @@ FoundDevice DeviceFinder::find(const std::string& name) const {
     if (device.bus_info == name) return device;
     connected += (connected.empty() ? "" : ", ") + device.bus_info;
   }
-  throw CaptureError(Step::Find, ENOENT,
+  throw CaptureError(Step::kFind, ENOENT,
                      name +
                          ": no camera at this port (connected: " + (connected.empty() ? "none" : connected) +
                          "); plug it in there, or give another name: `rosrun stereo_nav list_cameras`" +
@@ -97,7 +98,7 @@ FoundDevice DeviceFinder::findAgain(const FoundDevice& seen_before) const {
   for (auto& device : list(&refused)) {
     if (device.bus_info == seen_before.bus_info && device.index == seen_before.index) return device;
   }
-  throw CaptureError(Step::Find, ENOENT,
+  throw CaptureError(Step::kFind, ENOENT,
                      seen_before.card + " (was " + seen_before.path + ") is no longer at port " +
                          seen_before.bus_info + "; plug it in there again, or restart with its new name" +
                          refusalsText(refused));
@@ -108,7 +109,7 @@ FoundDevice DeviceFinder::describe(const std::string& path) const {
   const Capabilities& capabilities = opened.capabilities();
   if (!capabilities.captures_video) {
     throw CaptureError(
-        Step::Find, 0,
+        Step::kFind, 0,
         path + " (" + capabilities.card +
             ") does not capture video: a camera may have a second node for metadata; use the other one, "
             "`rosrun stereo_nav list_cameras` shows it");

@@ -24,17 +24,18 @@ struct FoundDevice {
   const std::string& stableName() const { return by_path.empty() ? bus_info : by_path; }
 };
 
-/// Knows where cameras are. Stateless: asks the system every time.
+/// Finds cameras. It has no state and asks the system every time.
 class DeviceFinder {
  public:
-  /// The folders are arguments for tests' sake.
+  /// The folders are arguments so that tests can replace them.
   explicit DeviceFinder(Kernel& kernel, std::string dev_root = "/dev", std::string sys_root = "/sys");
 
-  /// All capture devices, by number. `refused`, if given, gets why others could not be opened.
+  /// All capture devices in the order of their numbers. `refused`, if given, receives the reasons why others
+  /// could not be opened.
   std::vector<FoundDevice> list(std::vector<std::string>* refused = nullptr) const;
 
-  /// The device that `name` (/dev/videoN, a link to one, or a bus_info) means. Throws CaptureError that says
-  /// what is connected instead.
+  /// The device that `name` (/dev/videoN, a link to one, or a bus_info) means. Throws a CaptureError that
+  /// says what is connected instead.
   FoundDevice find(const std::string& name) const;
 
   /// The device at the port where one was seen before, whatever its number is now. Throws CaptureError.

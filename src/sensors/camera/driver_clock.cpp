@@ -8,7 +8,7 @@
 namespace stereo_nav::camera {
 namespace {
 
-/// A stamp this close to a clock's "now" is one of that clock.
+/// A stamp this close to a clock's present time belongs to that clock.
 constexpr std::int64_t kClose_ns = 10'000'000'000;
 
 }  // namespace
@@ -16,11 +16,11 @@ constexpr std::int64_t kClose_ns = 10'000'000'000;
 std::int64_t DriverClock::monotonicStamp(const LentBuffer& buffer) {
   if (!kind_) recognise(buffer);
   switch (*kind_) {
-    case Kind::Monotonic:
+    case Kind::kMonotonic:
       return buffer.stamp_ns;
-    case Kind::RealTime:
+    case Kind::kRealTime:
       return buffer.stamp_ns - (kernel_.realtimeNow() - kernel_.monotonicNow());
-    case Kind::Unusable:
+    case Kind::kUnusable:
       return buffer.dequeued_ns;
   }
   return buffer.dequeued_ns;
@@ -29,21 +29,22 @@ std::int64_t DriverClock::monotonicStamp(const LentBuffer& buffer) {
 void DriverClock::recognise(const LentBuffer& buffer) {
   warning_.clear();
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
-    kind_ = Kind::Monotonic;
+    kind_ = Kind::kMonotonic;
   } else if (std::abs(buffer.stamp_ns - buffer.dequeued_ns) < kClose_ns) {
-    kind_ = Kind::Monotonic;
+    kind_ = Kind::kMonotonic;
     warning_ =
-        "the driver does not say of which clock its time stamps are; they look monotonic and are used so";
+        "the driver does not say to which clock its time stamps belong; they look like the monotonic clock "
+        "and are used as such";
   } else if (std::abs(buffer.stamp_ns - kernel_.realtimeNow()) < kClose_ns) {
-    kind_ = Kind::RealTime;
+    kind_ = Kind::kRealTime;
     warning_ =
         "the driver stamps with the system's real time instead of the monotonic clock; stamps may jump when "
         "the clock is set";
   } else {
-    kind_ = Kind::Unusable;
+    kind_ = Kind::kUnusable;
     warning_ =
-        "the driver's time stamps are of no known clock; the time at which frames are taken from it is used "
-        "instead, which is late and jitters: expect poorer pairs";
+        "the driver's time stamps belong to no known clock; the time at which frames are taken from the "
+        "driver is used instead, which is late and jitters: expect worse pairs";
   }
 }
 

@@ -9,16 +9,17 @@
 
 namespace stereo_nav::camera {
 
-/// Which moment of the monotonic clock a buffer's stamp stands for. Drivers promise CLOCK_MONOTONIC by a
-/// flag; without it the clock is recognised from the first frame: monotonic or real time when the stamp is
-/// close to that clock's "now", and otherwise unusable, so that the time of dequeuing stands in.
+/// Converts the stamps of buffers to the monotonic clock. Drivers announce CLOCK_MONOTONIC by a flag. Without
+/// the flag the clock is recognised from the first frame: it is the monotonic or the real-time clock if the
+/// stamp is close to that clock's present time. Otherwise the stamps are unusable, and the time of dequeuing
+/// is used instead.
 class DriverClock {
  public:
-  enum class Kind { Monotonic, RealTime, Unusable };
+  enum class Kind { kMonotonic, kRealTime, kUnusable };
 
   explicit DriverClock(Kernel& kernel) : kernel_(kernel) {}
 
-  /// To be called when streaming starts: the next frame decides anew.
+  /// To be called when streaming starts: the clock is recognised again from the next frame.
   void reset() { kind_.reset(); }
 
   /// The stamp in CLOCK_MONOTONIC, nanoseconds.
@@ -36,8 +37,9 @@ class DriverClock {
   std::string warning_;
 };
 
-/// The middle of the exposure of the middle row: stamps are taken when the first row's begins or when the
-/// frame ends (V4L2's flags say which). What is not known, exposure or rolling shutter, is left out.
+/// The middle of the exposure of the middle row. The stamp is taken when the exposure of the first row begins
+/// or when the frame ends; V4L2's flags say which. If the exposure time or the readout time is unknown, its
+/// correction is left out.
 std::int64_t middleOfExposure(std::int64_t stamp_ns, std::uint32_t buffer_flags,
                               std::optional<double> exposure_s, double rolling_shutter_s);
 

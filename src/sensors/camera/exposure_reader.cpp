@@ -5,7 +5,7 @@
 namespace stereo_nav::camera {
 namespace {
 
-constexpr double kExposureUnit_s = 100e-6;  // of V4L2_CID_EXPOSURE_ABSOLUTE
+constexpr double kExposureUnit_s = 100e-6;  // unit of V4L2_CID_EXPOSURE_ABSOLUTE
 
 bool exposureIsManual(DeviceControls& controls) {
   const auto mode = controls.get("auto_exposure");

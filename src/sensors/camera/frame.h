@@ -7,17 +7,17 @@
 
 namespace stereo_nav::camera {
 
-enum class Side { Left, Right };
+enum class Side { kLeft, kRight };
 
 /// "left" or "right", for messages and topics.
 inline const char* sideName(Side side) {
-  return side == Side::Left ? "left" : "right";
+  return side == Side::kLeft ? "left" : "right";
 }
 inline Side otherSide(Side side) {
-  return side == Side::Left ? Side::Right : Side::Left;
+  return side == Side::kLeft ? Side::kRight : Side::kLeft;
 }
 
-/// One image with its times, all of CLOCK_MONOTONIC in nanoseconds.
+/// One image with its times, all in nanoseconds of CLOCK_MONOTONIC.
 struct Frame {
   DecodedImage image;
   std::int64_t time_ns = 0;      ///< middle of the exposure and of the rows, as far as known
@@ -25,7 +25,7 @@ struct Frame {
   std::int64_t dequeued_ns = 0;  ///< when the frame was taken from the driver
   std::int64_t decoding_ns = 0;  ///< how long decoding took
   std::uint32_t sequence = 0;    ///< the driver's counter
-  std::uint64_t lost = 0;        ///< frames that this camera's driver lost up to here
+  std::uint64_t lost = 0;        ///< frames that this camera's driver has lost so far
   double exposure_s = std::numeric_limits<double>::quiet_NaN();
 };
 

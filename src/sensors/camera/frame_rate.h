@@ -15,8 +15,8 @@ class FrameRate {
 
   void restart() { times_.clear(); }
 
-  /// 0 until two events were seen, and when the last one is long past at `now_ns`.
-  double get_hz(std::int64_t now_ns) const {
+  /// 0 until two events were seen, and when the last one lies more than the window before `now_ns`.
+  double rate_hz(std::int64_t now_ns) const {
     if (times_.size() < 2 || now_ns - times_.back() > kWindow_ns) return 0.0;
     const auto duration_ns = times_.back() - times_.front();
     return duration_ns > 0 ? 1e9 * static_cast<double>(times_.size() - 1) / static_cast<double>(duration_ns)

@@ -10,7 +10,7 @@
 namespace stereo_nav::camera::internal {
 namespace {
 
-/// libjpeg's way to report errors is a jump; the buffer follows its own struct.
+/// libjpeg reports errors by a jump; the jump buffer follows libjpeg's own struct.
 struct ErrorManager {
   jpeg_error_mgr base;
   std::jmp_buf jump;
@@ -23,15 +23,15 @@ struct ErrorManager {
   std::longjmp(errors->jump, 1);
 }
 
-/// Warnings mean damaged image data, but for filling bytes between markers, which many webcams send.
+/// Warnings mean damaged image data, except for padding bytes between markers, which many webcams send.
 void onMessage(j_common_ptr common, int level) {
   if (level >= 0 || common->err->msg_code == JWRN_EXTRANEOUS_DATA) return;
   auto* errors = reinterpret_cast<ErrorManager*>(common->err);
   if (errors->problem[0] == '\0') common->err->format_message(common, errors->problem);
 }
 
-/// Decompresses into `image`, which has its size already. False when libjpeg gave up. Holds no object that a
-/// jump would leave undestroyed.
+/// Decompresses into `image`, which has its size already. Returns false when libjpeg gave up. The function
+/// holds no object whose destructor a jump would skip.
 bool decompress(jpeg_decompress_struct& jpeg, ErrorManager& errors, const std::uint8_t* data,
                 std::size_t size, DecodedImage& image) {
   if (setjmp(errors.jump) != 0) return false;
@@ -45,7 +45,7 @@ bool decompress(jpeg_decompress_struct& jpeg, ErrorManager& errors, const std::u
                   image.width, image.height);
     return false;
   }
-  jpeg.out_color_space = image.encoding == Encoding::Mono8 ? JCS_GRAYSCALE : JCS_EXT_BGR;
+  jpeg.out_color_space = image.encoding == Encoding::kMono8 ? JCS_GRAYSCALE : JCS_EXT_BGR;
   jpeg_start_decompress(&jpeg);
   while (jpeg.output_scanline < jpeg.output_height) {
     JSAMPROW row = image.pixels.data() + jpeg.output_scanline * image.step();

@@ -45,9 +45,9 @@ class LinuxKernel : public Kernel {
   Ready wait(int descriptor, int timeout_ms) override {
     pollfd request{descriptor, POLLIN, 0};
     const int ready = ::poll(&request, 1, timeout_ms);
-    if (ready < 0) return errno == EINTR ? Ready::No : Ready::Error;
-    if (ready == 0) return Ready::No;
-    return (request.revents & (POLLERR | POLLHUP | POLLNVAL)) != 0 ? Ready::Error : Ready::Frame;
+    if (ready < 0) return errno == EINTR ? Ready::kNo : Ready::kError;
+    if (ready == 0) return Ready::kNo;
+    return (request.revents & (POLLERR | POLLHUP | POLLNVAL)) != 0 ? Ready::kError : Ready::kFrame;
   }
 
   std::int64_t monotonicNow() override { return readClock(CLOCK_MONOTONIC); }

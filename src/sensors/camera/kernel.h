@@ -6,11 +6,11 @@
 
 namespace stereo_nav::camera {
 
-/// The system calls that capturing needs, as one interface, so that tests can play a camera with any fault.
+/// The system calls that capturing needs, as an interface, so that tests can imitate a camera with any fault.
 /// Calls that fail return -errno; interrupted calls are repeated.
 class Kernel {
  public:
-  enum class Ready { No, Frame, Error };
+  enum class Ready { kNo, kFrame, kError };
 
   virtual ~Kernel() = default;
   /// Non-blocking, read and write. Returns a descriptor or -errno.
@@ -21,7 +21,7 @@ class Kernel {
   /// Shared mapping of a driver's buffer; nullptr on failure.
   virtual void* map(int descriptor, std::size_t length, std::int64_t offset) = 0;
   virtual void unmap(void* address, std::size_t length) = 0;
-  /// Waits for a frame. `Error` when the driver flags an error, with or without a frame.
+  /// Waits for a frame. Returns kError when the driver flags an error, with or without a frame.
   virtual Ready wait(int descriptor, int timeout_ms) = 0;
   /// CLOCK_MONOTONIC in nanoseconds: the clock of the drivers' stamps.
   virtual std::int64_t monotonicNow() = 0;
@@ -29,7 +29,7 @@ class Kernel {
   virtual std::int64_t realtimeNow() = 0;
 };
 
-/// The operating system's own.
+/// The implementation that calls the operating system.
 Kernel& linuxKernel();
 
 }  // namespace stereo_nav::camera

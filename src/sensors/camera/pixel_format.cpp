@@ -6,17 +6,17 @@ namespace stereo_nav::camera {
 
 std::uint32_t fourccOf(PixelFormat format) {
   switch (format) {
-    case PixelFormat::Any:
+    case PixelFormat::kAny:
       return 0;
-    case PixelFormat::Mjpg:
+    case PixelFormat::kMjpg:
       return V4L2_PIX_FMT_MJPEG;
-    case PixelFormat::Yuyv:
+    case PixelFormat::kYuyv:
       return V4L2_PIX_FMT_YUYV;
-    case PixelFormat::Uyvy:
+    case PixelFormat::kUyvy:
       return V4L2_PIX_FMT_UYVY;
-    case PixelFormat::Grey:
+    case PixelFormat::kGrey:
       return V4L2_PIX_FMT_GREY;
-    case PixelFormat::Nv12:
+    case PixelFormat::kNv12:
       return V4L2_PIX_FMT_NV12;
   }
   return 0;
@@ -26,17 +26,17 @@ PixelFormat pixelFormatOf(std::uint32_t fourcc) {
   switch (fourcc) {
     case V4L2_PIX_FMT_MJPEG:
     case V4L2_PIX_FMT_JPEG:
-      return PixelFormat::Mjpg;
+      return PixelFormat::kMjpg;
     case V4L2_PIX_FMT_YUYV:
-      return PixelFormat::Yuyv;
+      return PixelFormat::kYuyv;
     case V4L2_PIX_FMT_UYVY:
-      return PixelFormat::Uyvy;
+      return PixelFormat::kUyvy;
     case V4L2_PIX_FMT_GREY:
-      return PixelFormat::Grey;
+      return PixelFormat::kGrey;
     case V4L2_PIX_FMT_NV12:
-      return PixelFormat::Nv12;
+      return PixelFormat::kNv12;
     default:
-      return PixelFormat::Any;
+      return PixelFormat::kAny;
   }
 }
 
@@ -52,14 +52,14 @@ std::string fourccText(std::uint32_t fourcc) {
 std::size_t minimumBytesPerLine(PixelFormat format, int width) {
   const auto pixels = static_cast<std::size_t>(width);
   switch (format) {
-    case PixelFormat::Yuyv:
-    case PixelFormat::Uyvy:
+    case PixelFormat::kYuyv:
+    case PixelFormat::kUyvy:
       return 2 * pixels;
-    case PixelFormat::Grey:
-    case PixelFormat::Nv12:
+    case PixelFormat::kGrey:
+    case PixelFormat::kNv12:
       return pixels;
-    case PixelFormat::Mjpg:
-    case PixelFormat::Any:
+    case PixelFormat::kMjpg:
+    case PixelFormat::kAny:
       return 0;
   }
   return 0;
@@ -67,7 +67,7 @@ std::size_t minimumBytesPerLine(PixelFormat format, int width) {
 
 std::size_t imageBytes(PixelFormat format, int height, std::size_t bytes_per_line) {
   const std::size_t plane = static_cast<std::size_t>(height) * bytes_per_line;
-  return format == PixelFormat::Nv12 ? plane + plane / 2 : plane;
+  return format == PixelFormat::kNv12 ? plane + plane / 2 : plane;
 }
 
 }  // namespace stereo_nav::camera

@@ -6,13 +6,14 @@
 
 namespace stereo_nav::camera {
 
-/// What cameras deliver and the decoder understands. `Any` asks for the best that the camera has.
-enum class PixelFormat { Any, Mjpg, Yuyv, Uyvy, Grey, Nv12 };
+/// Pixel formats that cameras deliver and the decoder understands. kAny asks for the best that the camera
+/// has.
+enum class PixelFormat { kAny, kMjpg, kYuyv, kUyvy, kGrey, kNv12 };
 
-/// V4L2's four-character code; 0 for `Any`.
+/// V4L2's four-character code; 0 for kAny.
 std::uint32_t fourccOf(PixelFormat format);
 
-/// `Any` when the code is none of ours.
+/// kAny when the code is none of these formats.
 PixelFormat pixelFormatOf(std::uint32_t fourcc);
 
 /// A code in readable form, e.g. "MJPG".

@@ -6,7 +6,7 @@
 namespace stereo_nav::camera {
 
 /// Counts the frames that the driver lost: the gaps in its counter, which may wrap. A counter that stands
-/// still or goes back (some drivers leave it at 0; a new stream starts at 0) tells of no loss.
+/// still or goes back (some drivers leave it at 0; a new stream starts at 0) is not taken as a loss.
 class SequenceCounter {
  public:
   void restart() { latest_.reset(); }

@@ -24,11 +24,11 @@ StereoCamera::StereoCamera(const StereoConfig& config, Kernel& kernel, const Dev
       log_(log),
       pairer_(nanoseconds(1.0 / config.left.format.rate_hz), nanoseconds(config.max_skew_s)),
       left_(
-          config.left, kernel, finder, [this](Frame frame) { take(Side::Left, std::move(frame)); },
-          [this] { cameraStarted(Side::Left); }, log),
+          config.left, kernel, finder, [this](Frame frame) { take(Side::kLeft, std::move(frame)); },
+          [this] { cameraStarted(Side::kLeft); }, log),
       right_(
-          config.right, kernel, finder, [this](Frame frame) { take(Side::Right, std::move(frame)); },
-          [this] { cameraStarted(Side::Right); }, log) {}
+          config.right, kernel, finder, [this](Frame frame) { take(Side::kRight, std::move(frame)); },
+          [this] { cameraStarted(Side::kRight); }, log) {}
 
 StereoCamera::~StereoCamera() {
   stop();
@@ -44,9 +44,9 @@ void StereoCamera::stop() {
   right_.stop();
 }
 
-void StereoCamera::setMaxSkew(double max_skew_s) {
+void StereoCamera::setMaxTimeOffset(double max_skew_s) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  pairer_.setMaxSkew(nanoseconds(max_skew_s));
+  pairer_.setMaxTimeOffset(nanoseconds(max_skew_s));
 }
 
 void StereoCamera::cameraStarted(Side side) {
@@ -63,16 +63,16 @@ void StereoCamera::take(Side side, Frame frame) {
 }
 
 void StereoCamera::enqueue(FramePair pair) {
-  beat_.add(pair.left.time_ns, pair.skew_ns(), pairer_.period_ns());
-  skew_s_ = 1e-9 * static_cast<double>(pair.skew_ns());
+  beat_.add(pair.left.time_ns, pair.timeOffset_ns(), pairer_.period_ns());
+  time_offset_s_ = 1e-9 * static_cast<double>(pair.timeOffset_ns());
   const auto& dropped = pairer_.counts().without_partner;
-  queue_.push_back({std::move(pair), dropped[0] + dropped[1], beat_.skewRate()});
+  queue_.push_back({std::move(pair), dropped[0] + dropped[1], beat_.timeOffsetRate()});
   if (queue_.size() <= kQueueLength) return;
   queue_.pop_front();
   ++delivered_late_;
 }
 
-/// Also what the other camera completes meanwhile, so that pairs keep their order.
+/// Delivers also the pairs that the other camera completes meanwhile, so that pairs keep their order.
 void StereoCamera::deliverPairs(std::unique_lock<std::mutex>& lock) {
   delivering_ = true;
   while (!queue_.empty()) {
@@ -92,11 +92,10 @@ void StereoCamera::deliverPairs(std::unique_lock<std::mutex>& lock) {
 
 void StereoCamera::matchExposure() {
   const CameraStatus left = left_.status();
-  if (left.exposure_untold && !std::exchange(told_of_untold_exposure_, true)) {
-    log_(
-        Severity::Warning,
-        "match_exposure: the left camera has not told the exposure time that it chose; the right one follows "
-        "as soon as it does. If the images stay different, set exposure_ms");
+  if (left.exposure_unknown && !std::exchange(warned_of_unknown_exposure_, true)) {
+    log_(Severity::kWarning,
+         "match_exposure: the left camera has not told the exposure time that it chose; the right camera "
+         "follows as soon as it does. If the images stay different, set exposure_ms");
   }
   if (left.exposure && left.exposure != matched_exposure_) {
     matched_exposure_ = left.exposure;
@@ -116,10 +115,10 @@ StereoStatus StereoCamera::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   status.pairing = pairer_.counts();
   status.delivered_late = delivered_late_;
-  status.pair_rate_hz = pair_rate_.get_hz(kernel_.monotonicNow());
-  status.max_skew_s = 1e-9 * static_cast<double>(pairer_.maxSkew_ns());
-  status.skew_s = skew_s_;
-  status.skew_rate = beat_.skewRate();
+  status.pair_rate_hz = pair_rate_.rate_hz(kernel_.monotonicNow());
+  status.max_skew_s = 1e-9 * static_cast<double>(pairer_.maxTimeOffset_ns());
+  status.time_offset_s = time_offset_s_;
+  status.time_offset_rate = beat_.timeOffsetRate();
   status.latency_s = latency_s_;
   return status;
 }

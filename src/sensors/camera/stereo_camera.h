@@ -7,11 +7,12 @@
 
 #include "sensors/camera/camera_worker.h"
 #include "sensors/camera/clock_beat.h"
-#include "sensors/camera/pairer.h"
+#include "sensors/camera/left_right_pairer.h"
 
 namespace stereo_nav::camera {
 
-/// What the two cameras are asked for, and how their frames pair (`max_skew_s`: largest time between them).
+/// What the two cameras are asked for, and how their frames are paired (`max_skew_s`: largest time between
+/// the frames of a pair).
 struct StereoConfig {
   CameraConfig left;
   CameraConfig right;
@@ -23,7 +24,7 @@ struct StereoConfig {
 struct StereoImages {
   FramePair pair;
   std::uint64_t pairs_dropped = 0;  ///< frames left without a partner, both cameras
-  double skew_rate = 0.0;           ///< s/s; NaN until known
+  double time_offset_rate = 0.0;    ///< s/s; NaN until known
 };
 
 /// A snapshot for diagnostics.
@@ -33,16 +34,16 @@ struct StereoStatus {
   PairerCounts pairing;
   std::uint64_t delivered_late = 0;  ///< pairs overtaken by newer ones while the receiver was busy
   double pair_rate_hz = 0.0;
-  double max_skew_s = 0.0;  ///< as it is set now
-  double skew_s = 0.0;      ///< of the latest pair
-  double skew_rate = 0.0;   ///< s/s; NaN until known
-  double latency_s = 0.0;   ///< of the latest pair, from dequeuing its later image to handing it on
+  double max_skew_s = 0.0;        ///< as it is set now
+  double time_offset_s = 0.0;     ///< of the latest pair
+  double time_offset_rate = 0.0;  ///< s/s; NaN until known
+  double latency_s = 0.0;         ///< of the latest pair, from dequeuing its later image to handing it on
 };
 
 /// Two cameras, each with a thread that captures and decodes. The thread whose image completes a pair hands
-/// it to the receiver itself: no other one needs to be woken. While a receiver is slow, that camera skips to
-/// its newest image afterwards, and of pairs that the other camera completes meanwhile at most kQueueLength
-/// wait; older ones go.
+/// it to the receiver itself, so that no other thread has to be woken. When a receiver is slow, that camera
+/// goes on with its newest image afterwards. Of the pairs that the other camera completes meanwhile at most
+/// kQueueLength wait; older ones are dropped.
 class StereoCamera {
  public:
   /// Called on a camera's thread, one call at a time, in the order of the pairs.
@@ -58,7 +59,7 @@ class StereoCamera {
   StereoStatus status() const;
   CameraWorker& left() { return left_; }
   CameraWorker& right() { return right_; }
-  void setMaxSkew(double max_skew_s);
+  void setMaxTimeOffset(double max_skew_s);
 
  private:
   static constexpr std::size_t kQueueLength = 2;
@@ -81,12 +82,12 @@ class StereoCamera {
   std::deque<StereoImages> queue_;
   std::uint64_t delivered_late_ = 0;
   double latency_s_ = 0.0;
-  double skew_s_ = 0.0;
+  double time_offset_s_ = 0.0;
   bool delivering_ = false;  ///< one of the threads is in deliverPairs()
 
   std::optional<std::int32_t> matched_exposure_;
   std::optional<std::int32_t> matched_gain_;
-  bool told_of_untold_exposure_ = false;
+  bool warned_of_unknown_exposure_ = false;
 
   CameraWorker left_;
   CameraWorker right_;

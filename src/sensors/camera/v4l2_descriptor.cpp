@@ -4,7 +4,7 @@ namespace stereo_nav::camera {
 
 V4l2Descriptor::V4l2Descriptor(Kernel& kernel, const std::string& path)
     : kernel_(kernel), path_(path), number_(kernel.open(path)) {
-  if (number_ < 0) throw explainFailure(Step::Open, -number_, path_, "");
+  if (number_ < 0) throw explainFailure(Step::kOpen, -number_, path_, "");
 }
 
 V4l2Descriptor::~V4l2Descriptor() {

@@ -10,10 +10,10 @@
 namespace stereo_nav::camera {
 namespace {
 
-/// What is tried when the user has no wish: compressed first, since two uncompressed cameras rarely fit onto
-/// one USB bus.
-constexpr PixelFormat kPreference[] = {PixelFormat::Mjpg, PixelFormat::Yuyv, PixelFormat::Uyvy,
-                                       PixelFormat::Nv12, PixelFormat::Grey};
+/// The order in which formats are tried when the user asks for none: compressed first, since two uncompressed
+/// cameras rarely fit onto one USB bus.
+constexpr PixelFormat kPreference[] = {PixelFormat::kMjpg, PixelFormat::kYuyv, PixelFormat::kUyvy,
+                                       PixelFormat::kNv12, PixelFormat::kGrey};
 
 template <std::size_t N>
 std::string textOf(const unsigned char (&field)[N]) {
@@ -42,7 +42,7 @@ V4l2Device::~V4l2Device() {
 
 void V4l2Device::queryCapabilities() {
   v4l2_capability reply{};
-  descriptor_.callOrThrow(VIDIOC_QUERYCAP, &reply, Step::Query, "");
+  descriptor_.callOrThrow(VIDIOC_QUERYCAP, &reply, Step::kQuery, "");
   capabilities_.driver = textOf(reply.driver);
   capabilities_.card = textOf(reply.card);
   capabilities_.bus_info = textOf(reply.bus_info);
@@ -53,7 +53,7 @@ void V4l2Device::queryCapabilities() {
 }
 
 std::vector<std::uint32_t> V4l2Device::formatsToTry(PixelFormat wanted) {
-  if (wanted != PixelFormat::Any) return {fourccOf(wanted)};
+  if (wanted != PixelFormat::kAny) return {fourccOf(wanted)};
   std::vector<std::uint32_t> offered;
   v4l2_fmtdesc description{};
   description.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -70,7 +70,7 @@ std::vector<std::uint32_t> V4l2Device::formatsToTry(PixelFormat wanted) {
   if (usable.empty()) {
     std::string names;
     for (const auto fourcc : offered) names += (names.empty() ? "" : ", ") + fourccText(fourcc);
-    throw CaptureError(Step::SetFormat, 0,
+    throw CaptureError(Step::kSetFormat, 0,
                        path() + ": offers " + (names.empty() ? "no image format" : names) +
                            ", none of MJPG, YUYV, UYVY, NV12, GREY: this camera cannot be used");
   }
@@ -87,7 +87,7 @@ ActiveFormat V4l2Device::configure(const FormatRequest& request) {
     format.fmt.pix.pixelformat = fourcc;
     format.fmt.pix.field = V4L2_FIELD_NONE;
     format_text_ = sizeText(fourcc, format.fmt.pix.width, format.fmt.pix.height);
-    descriptor_.callOrThrow(VIDIOC_S_FMT, &format, Step::SetFormat, format_text_);
+    descriptor_.callOrThrow(VIDIOC_S_FMT, &format, Step::kSetFormat, format_text_);
     const auto& active = format.fmt.pix;
     const bool as_wanted = pixelFormatOf(active.pixelformat) == pixelFormatOf(fourcc) &&
                            static_cast<int>(active.width) == request.width &&
@@ -104,10 +104,10 @@ ActiveFormat V4l2Device::configure(const FormatRequest& request) {
     got += (got.empty() ? "" : ", ") + sizeText(active.pixelformat, active.width, active.height);
   }
   throw CaptureError(
-      Step::SetFormat, 0,
+      Step::kSetFormat, 0,
       path() + ": asked for " + std::to_string(request.width) + "x" + std::to_string(request.height) +
           " in " +
-          (request.format == PixelFormat::Any ? "any format" : fourccText(fourccOf(request.format))) +
+          (request.format == PixelFormat::kAny ? "any format" : fourccText(fourccOf(request.format))) +
           ", the driver offers " + got +
           " instead; set width, height and format to what `rosrun stereo_nav list_cameras` shows");
 }
@@ -128,7 +128,7 @@ void V4l2Device::startStreaming(int buffers) {
   try {
     mapBuffers(buffers);
     int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    descriptor_.callOrThrow(VIDIOC_STREAMON, &type, Step::StreamOn, format_text_);
+    descriptor_.callOrThrow(VIDIOC_STREAMON, &type, Step::kStreamOn, format_text_);
     streaming_ = true;
   } catch (...) {
     unmapBuffers();
@@ -141,20 +141,20 @@ void V4l2Device::mapBuffers(int count) {
   request.count = static_cast<std::uint32_t>(count);
   request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   request.memory = V4L2_MEMORY_MMAP;
-  descriptor_.callOrThrow(VIDIOC_REQBUFS, &request, Step::GetBuffers, format_text_);
+  descriptor_.callOrThrow(VIDIOC_REQBUFS, &request, Step::kGetBuffers, format_text_);
   for (std::uint32_t index = 0; index < request.count; ++index) {
     v4l2_buffer buffer{};
     buffer.index = index;
     buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     buffer.memory = V4L2_MEMORY_MMAP;
-    descriptor_.callOrThrow(VIDIOC_QUERYBUF, &buffer, Step::GetBuffers, format_text_);
+    descriptor_.callOrThrow(VIDIOC_QUERYBUF, &buffer, Step::kGetBuffers, format_text_);
     void* address = descriptor_.kernel().map(descriptor_.number(), buffer.length, buffer.m.offset);
-    if (address == nullptr) throw explainFailure(Step::GetBuffers, ENOMEM, path(), "mapping memory");
+    if (address == nullptr) throw explainFailure(Step::kGetBuffers, ENOMEM, path(), "mapping memory");
     buffers_.push_back({address, buffer.length});
-    descriptor_.callOrThrow(VIDIOC_QBUF, &buffer, Step::Queue, format_text_);
+    descriptor_.callOrThrow(VIDIOC_QBUF, &buffer, Step::kQueue, format_text_);
   }
   if (buffers_.size() < 2) {
-    throw CaptureError(Step::GetBuffers, 0, path() + ": the driver gave fewer than two image buffers");
+    throw CaptureError(Step::kGetBuffers, 0, path() + ": the driver gave fewer than two image buffers");
   }
 }
 
@@ -177,11 +177,11 @@ void V4l2Device::stopStreaming() noexcept {
 
 bool V4l2Device::wait(int timeout_ms) {
   switch (descriptor_.kernel().wait(descriptor_.number(), timeout_ms)) {
-    case Kernel::Ready::No:
+    case Kernel::Ready::kNo:
       return false;
-    case Kernel::Ready::Frame:
+    case Kernel::Ready::kFrame:
       return true;
-    case Kernel::Ready::Error:
+    case Kernel::Ready::kError:
       break;
   }
   // Taking a frame tells which error it is.
@@ -189,7 +189,7 @@ bool V4l2Device::wait(int timeout_ms) {
   buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   buffer.memory = V4L2_MEMORY_MMAP;
   const int result = descriptor_.call(VIDIOC_DQBUF, &buffer);
-  throw explainFailure(Step::Wait, result < 0 && result != -EAGAIN ? -result : EIO, path(), format_text_);
+  throw explainFailure(Step::kWait, result < 0 && result != -EAGAIN ? -result : EIO, path(), format_text_);
 }
 
 std::optional<LentBuffer> V4l2Device::dequeue() {
@@ -198,8 +198,8 @@ std::optional<LentBuffer> V4l2Device::dequeue() {
   buffer.memory = V4L2_MEMORY_MMAP;
   const int result = descriptor_.call(VIDIOC_DQBUF, &buffer);
   if (result == -EAGAIN) return std::nullopt;
-  if (result < 0) throw explainFailure(Step::Dequeue, -result, path(), format_text_);
-  if (buffer.index >= buffers_.size()) throw explainFailure(Step::Dequeue, EIO, path(), "unknown buffer");
+  if (result < 0) throw explainFailure(Step::kDequeue, -result, path(), format_text_);
+  if (buffer.index >= buffers_.size()) throw explainFailure(Step::kDequeue, EIO, path(), "unknown buffer");
   LentBuffer lent;
   lent.dequeued_ns = descriptor_.kernel().monotonicNow();
   lent.index = buffer.index;
@@ -217,7 +217,7 @@ void V4l2Device::giveBack(const LentBuffer& lent) {
   buffer.index = lent.index;
   buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   buffer.memory = V4L2_MEMORY_MMAP;
-  descriptor_.callOrThrow(VIDIOC_QBUF, &buffer, Step::Queue, format_text_);
+  descriptor_.callOrThrow(VIDIOC_QBUF, &buffer, Step::kQueue, format_text_);
 }
 
 }  // namespace stereo_nav::camera

@@ -23,9 +23,9 @@ struct Capabilities {
   bool captures_video = false;  ///< single-planar capture with streaming, which is what webcams have
 };
 
-/// What a driver is asked for; it may agree to something near.
+/// What a driver is asked for; it may choose something similar.
 struct FormatRequest {
-  PixelFormat format = PixelFormat::Any;
+  PixelFormat format = PixelFormat::kAny;
   int width = 640;
   int height = 480;
   double rate_hz = 30.0;
@@ -34,15 +34,15 @@ struct FormatRequest {
 /// What the driver agreed to.
 struct ActiveFormat {
   ImageLayout layout;
-  double rate_hz = 0.0;  ///< 0 if the driver does not tell
+  double rate_hz = 0.0;  ///< 0 if the driver does not report it
 };
 
-/// A frame in the driver's memory, lent until it is given back.
+/// A frame in the driver's memory, borrowed until it is given back.
 struct LentBuffer {
   std::uint32_t index = 0;
   const std::uint8_t* data = nullptr;
   std::size_t size = 0;
-  std::int64_t stamp_ns = 0;  ///< as the driver wrote it; of which clock and moment, `flags` says
+  std::int64_t stamp_ns = 0;  ///< as the driver wrote it; `flags` says of which clock and moment
   std::uint32_t flags = 0;    ///< V4L2_BUF_FLAG_...
   std::uint32_t sequence = 0;
   std::int64_t dequeued_ns = 0;  ///< when it was taken from the driver, CLOCK_MONOTONIC
@@ -50,8 +50,8 @@ struct LentBuffer {
   bool isBroken() const;
 };
 
-/// A V4L2 capture device with memory-mapped buffers. Every failure throws CaptureError; the destructor gives
-/// everything back whatever happened. Not for use by several threads.
+/// A V4L2 capture device with memory-mapped buffers. Every failure throws a CaptureError; the destructor
+/// releases everything in any case. Not for use by several threads.
 class V4l2Device {
  public:
   /// Opens the device and asks for its capabilities.
@@ -63,8 +63,8 @@ class V4l2Device {
   const std::string& path() const { return descriptor_.path(); }
   const Capabilities& capabilities() const { return capabilities_; }
 
-  /// Sets size, format and rate. Throws when the driver changes the size or the format; another rate is
-  /// accepted and told in the result.
+  /// Sets size, format and rate. Throws when the driver changes the size or the format. Another rate is
+  /// accepted and returned in the result.
   ActiveFormat configure(const FormatRequest& request);
   std::vector<OfferedFormat> offeredFormats() const { return camera::offeredFormats(descriptor_); }
 
@@ -72,7 +72,7 @@ class V4l2Device {
   void stopStreaming() noexcept;
   /// False on time-out. Throws when the driver reports an error and has no frame.
   bool wait(int timeout_ms);
-  /// The oldest filled buffer, or none.
+  /// The oldest filled buffer, or nothing.
   std::optional<LentBuffer> dequeue();
   void giveBack(const LentBuffer& buffer);
 

@@ -10,13 +10,13 @@ namespace {
 
 /// A path is continued over at most this many periods.
 constexpr double kMaxBridge = 4.0;
-/// Neighbours that testify for each other are at most this many periods apart.
+/// Neighbours that confirm each other are at most this many periods apart.
 constexpr double kMaxSpacing = 2.0;
 /// Silence after which nothing is known about the path any more.
 constexpr double kMaxSilence_s = 0.5;
-/// How far off the expected path a candidate may be that the next one confirms, in units of the tight bound.
+/// How far a candidate that the next one confirms may be from the expected path, in units of the tight bound.
 constexpr double kConfirmedTolerance = 3.0;
-/// Frames the period is measured over: soon at first, then less often and more exactly.
+/// Numbers of frames over which the period is measured: at first soon, then less often and more exactly.
 constexpr std::uint64_t kFirstPeriodFrames = 5;
 constexpr std::uint64_t kPeriodFrames = 100;
 
@@ -24,7 +24,7 @@ double steps(const AngleFrame& from, const AngleFrame& to) {
   return static_cast<double>(to.index) - static_cast<double>(from.index);
 }
 
-/// Change of the three angles the short way round, degrees.
+/// Change of the three angles by the shorter way, degrees.
 Eigen::Vector3d change(const AngleFrame& from, const AngleFrame& to) {
   return (to.angles.vector() - from.angles.vector()).unaryExpr(&wrapDegrees);
 }
@@ -37,7 +37,7 @@ double largest(const Eigen::Vector3d& angles_deg) {
 
 void AngleGateParams::describe(ParameterVisitor& visitor) {
   visitor.real("noise_deg", noise_deg, {0.001, 5.0}, "deg",
-               "largest noise of the module's angles; frames off by more are refused");
+               "largest noise of the module's angles; frames that deviate by more are refused");
   visitor.real("max_acceleration_deg_s2", max_acceleration_deg_s2, {10.0, 1e5}, "deg/s^2",
                "largest angular acceleration of the robot; frames that would need more are refused");
   visitor.real("max_rate_deg_s", max_rate_deg_s, {10.0, 2000.0}, "deg/s",
@@ -77,7 +77,7 @@ void AngleGate::push(const AngleCandidate& candidate, double arrival_s, const Si
   }
 }
 
-/// Counts the module's frames by bytes, so that lost ones count, too.
+/// Derives the frame index from the position in the stream, so that lost frames count, too.
 AngleGate::Item AngleGate::itemOf(const AngleCandidate& candidate, double arrival_s) {
   Item item;
   item.frame.angles = candidate.angles;
@@ -130,8 +130,8 @@ bool AngleGate::possibleRate(const Item& first, const Item& last) const {
          params_.max_rate_deg_s * duration_s + params_.noise_deg;
 }
 
-/// Delivers the first waiting candidate that lies on the way from the path's end to `newest`, if there is
-/// one; those before it are refused.
+/// Delivers the first waiting candidate that lies between the end of the path and `newest`, if there is one;
+/// the candidates before it are refused.
 bool AngleGate::confirmOne(const Item& newest, const Sink& sink) {
   if (!last_) return false;
   for (std::size_t i = 0; i + 1 < waiting_count_; ++i) {
@@ -148,8 +148,8 @@ bool AngleGate::confirmOne(const Item& newest, const Sink& sink) {
   return false;
 }
 
-/// Begins a new path when the newest waiting candidate ends one. Fewer candidates would not do: three damaged
-/// frames whose same byte was hit may lie on a line that a true one happens to cross.
+/// Begins a new path when the newest waiting candidate completes one. Fewer candidates would not suffice:
+/// three frames with the same byte damaged may lie on a line that a true frame happens to cross.
 bool AngleGate::startTrack(const Sink& sink) {
   if (waiting_count_ < kPathFrames || !waiting_[waiting_count_ - 1].chained) return false;
   Path path;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "sensors/imu/angle_framer.h"
+#include "sensors/imu/angle_protocol.h"
 #include "stereo_nav/core/parameter_visitor.h"
 
 namespace stereo_nav::imu {
@@ -18,10 +18,11 @@ struct AngleGateParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// A frame the gate vouches for.
+/// A candidate that the gate has accepted.
 struct AngleFrame {
   ModuleAngles angles;
-  std::uint64_t index = 0;      ///< frames the module has sent since the first one, lost ones included
+  std::uint64_t index =
+      0;  ///< number of frames that the module has sent since the first one, lost ones included
   std::uint64_t last_byte = 0;  ///< position in the stream of the frame's last byte
   double arrival_s = 0.0;       ///< when that byte arrived
 };
@@ -32,19 +33,21 @@ struct AngleGateCounters {
   std::uint64_t implausible = 0;  ///< candidates refused because they fit neither their past nor their future
 };
 
-/// Decides which candidates are frames. There is no checksum, so a corrupt byte shows only as an attitude
-/// that a body could not have taken. With T the module's own period and a the largest angular acceleration:
+/// Decides which candidates are frames. There is no checksum, so that a corrupt byte shows only as an
+/// attitude that a body cannot have reached. With T the module's own period and a the largest angular
+/// acceleration:
 ///
-/// 1. A candidate within `noise + a T^2` of where the last two frames' constant rate leads is delivered at
-///    once, whatever comes later (second difference of a motion of bounded acceleration).
-/// 2. Any other one waits. It is delivered when the next one confirms it: it lies within
-///    `noise + a n1 n2 T^2 / 2` of the line between its neighbours (n1, n2: periods to them) and not farther
-///    than a few times the first bound from the expected path.
+/// 1. A candidate within `noise + a T^2` of the attitude that the constant rate of the last two frames
+///    predicts is delivered at once, whatever comes later (second difference of a motion of bounded
+///    acceleration).
+/// 2. Any other candidate waits. It is delivered when the next one confirms it: it must lie within `noise + a
+///    n1 n2 T^2 / 2` of the line between its neighbours (n1, n2: periods to them), and not farther from the
+///    expected path than a few times the first bound.
 /// 3. Five waiting candidates on one line, with a possible rate, start a new path: at the start, after a gap,
 ///    or after the module set its yaw to something else.
 ///
 /// Every delivered frame has a header at exactly 15 bytes before or after its own. Frames are delivered in
-/// order. Yaw passing +-180 or 0/360 degrees is an ordinary step.
+/// order. A yaw that passes +-180 or 0/360 degrees is an ordinary step.
 class AngleGate {
  public:
   using Sink = std::function<void(const AngleFrame&)>;
@@ -64,7 +67,7 @@ class AngleGate {
     bool chained = false;  ///< a header stands 15 bytes before or after this one's
   };
   static constexpr std::size_t kMaxWaiting = 8;
-  static constexpr std::size_t kPathFrames = 5;  ///< that begin a path
+  static constexpr std::size_t kPathFrames = 5;  ///< number of frames that begin a path
   using Path = std::array<Item, kPathFrames>;
 
   Item itemOf(const AngleCandidate& candidate, double arrival_s);
@@ -83,9 +86,9 @@ class AngleGate {
   double period_s_ = 0.01;
   std::optional<Item> period_start_;
   bool period_settled_ = false;
-  std::optional<Item> newest_;  ///< the newest candidate, trusted or not: continues the frame index
+  std::optional<Item> newest_;  ///< the newest candidate, accepted or not; it continues the frame index
 
-  // The path: the last two delivered frames of one piece; none or both.
+  // The path: the last two delivered frames that belong together; either both or none.
   std::optional<Item> before_last_, last_;
   std::array<Item, kMaxWaiting> waiting_;
   std::size_t waiting_count_ = 0;

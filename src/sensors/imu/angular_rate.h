@@ -9,10 +9,11 @@ namespace stereo_nav::imu {
 /// Angular velocity of a stream of attitudes, for modules that send no rates.
 class AngularRate {
  public:
-  /// `window_s`: the difference is taken over about this time; longer is smoother and later (by half of it).
+  /// `window_s`: the difference is taken over about this time. A longer window is smoother, and later by half
+  /// of its length.
   explicit AngularRate(double window_s) : window_s_(window_s) {}
 
-  /// rad/s, IMU frame; nothing at the first attitude and after a gap. Times must grow.
+  /// Returns rad/s in the IMU frame; nothing at the first attitude and after a gap. Times must increase.
   std::optional<Eigen::Vector3d> update(double time_s, const Eigen::Quaterniond& q_world_imu);
   void reset() { history_.clear(); }
 

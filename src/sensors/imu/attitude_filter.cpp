@@ -12,7 +12,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Attitude whose rows are the world's axes seen from the IMU.
+/// The attitude whose rotation matrix R_world_imu has the world's axes, seen from the IMU, as rows.
 Eigen::Quaterniond fromRows(const Vector3d& x_axis, const Vector3d& y_axis, const Vector3d& z_axis) {
   Matrix3d R_world_imu;
   R_world_imu << x_axis.transpose(), y_axis.transpose(), z_axis.transpose();
@@ -24,7 +24,7 @@ Eigen::Quaterniond levelledByMagnet(const Vector3d& up, const Vector3d& field) {
   return fromRows(east, up.cross(east), up);
 }
 
-/// Heading zero, or any heading when the x axis points straight up or down.
+/// The heading is zero; it is arbitrary when the x axis points straight up or down.
 Eigen::Quaterniond levelled(const Vector3d& up) {
   const Vector3d left = up.cross(Vector3d::UnitX());
   if (left.norm() < 1e-3) return Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ());
@@ -36,11 +36,12 @@ Eigen::Quaterniond levelled(const Vector3d& up) {
 void AttitudeParams::describe(ParameterVisitor& visitor) {
   visitEnum(visitor, "method", method,
             {{"mahony", AttitudeMethod::kMahony}, {"madgwick", AttitudeMethod::kMadgwick}},
-            "filter that makes an orientation from raw measurements");
-  visitor.flag("use_magnetometer", use_magnetometer,
-               "heading from the magnetometer; only with a calibrated one, away from iron and motors");
+            "filter that computes the orientation from raw measurements");
+  visitor.flag(
+      "use_magnetometer", use_magnetometer,
+      "take the heading from the magnetometer, which must be calibrated and away from iron and motors");
   visitor.real("acceleration_gate_m_s2", acceleration_gate_m_s2, {0.05, 100.0}, "m/s^2",
-               "accelerations that differ from gravity by more are not used");
+               "accelerations whose magnitude differs from gravity by more are not used");
   visitor.real("mahony_kp", mahony_kp, {0.0, 50.0}, "1/s", "Mahony: correction of the attitude");
   visitor.real("mahony_ki", mahony_ki, {0.0, 10.0}, "1/s^2", "Mahony: correction of the gyroscope bias");
   visitor.real("madgwick_beta", madgwick_beta, {0.0, 5.0}, "rad/s", "Madgwick: correction of the attitude");

@@ -5,15 +5,15 @@
 namespace stereo_nav::imu {
 namespace {
 
-/// Start bit, eight data bits, stop bit.
+/// Bits on the wire for a byte: start bit, eight data bits, stop bit.
 constexpr double kBitsPerByte = 10.0;
 
-/// Raw frames carry their own time; only a jump of this clock counts as a step.
+/// Raw frames carry their own time; only a jump of that clock by this much (s) counts as a step.
 constexpr double kRawClockStep_s = 0.04;
 
-/// After a silence as long as this, a module that counts no time itself may have paused ...
+/// After a silence as long as this, a module that sends no time of its own may have paused ...
 constexpr double kSilence_s = 0.5;
-/// ... unless about as many bytes have queued as it sends in that time, up to what one read takes.
+/// ... unless about as many bytes have queued as the module sends in that time, up to the size of one read.
 constexpr double kQueuedShare = 0.5;
 constexpr double kMaxRead = 4096.0;
 
@@ -55,7 +55,7 @@ class AngleDecoder : public FrameDecoder {
   double wireTime_s() const override { return AngleFramer::kFrameBytes * byte_time_s_; }
 
  private:
-  /// Whether the module was silent, as opposed to this program being late.
+  /// Whether the module was silent, as opposed to this program having been late.
   bool paused(std::size_t size, double read_time_s) const {
     if (!last_read_s_ || read_time_s - *last_read_s_ < kSilence_s) return false;
     const double sent = AngleFramer::kFrameBytes * (read_time_s - *last_read_s_) / gate_.period_s();
@@ -115,7 +115,7 @@ class RawDecoder : public FrameDecoder {
   double wireTime_s() const override { return raw_protocol::kFrameBytes * byte_time_s_; }
 
  private:
-  /// A step back, as after a restart of the module, stays a step back.
+  /// A step back, as after a restart of the module, remains a step back.
   double unwrap(std::uint32_t time_us) {
     if (last_time_us_) time_s_ += static_cast<std::int32_t>(time_us - *last_time_us_) * 1e-6;
     last_time_us_ = time_us;

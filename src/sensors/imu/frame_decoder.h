@@ -13,14 +13,14 @@ namespace stereo_nav::imu {
 
 enum class Protocol { kAngles, kRaw };
 
-/// One frame of either protocol; exactly one of `angles` and `raw` is there.
+/// One frame of either protocol; exactly one of `angles` and `raw` is present.
 struct DecodedFrame {
   std::optional<ModuleAngles> angles;
   std::optional<RawMeasurement> raw;
   double device_clock = 0.0;       ///< grows: frame number (angles) or the module's time in seconds (raw)
-  double device_clock_step = 1.0;  ///< what a frame lost unnoticed would hide on that clock
-  double arrival_s = 0.0;          ///< last byte, same clock as the read times
-  bool clock_restarted = false;    ///< the device clock missed an unknown time before this frame
+  double device_clock_step = 1.0;  ///< step of that clock that hides a frame lost unnoticed
+  double arrival_s = 0.0;          ///< arrival of the last byte, on the clock of the read times
+  bool clock_restarted = false;    ///< the device clock stood still for an unknown time before this frame
 };
 
 /// Since the decoder was made.
@@ -38,13 +38,13 @@ class FrameDecoder {
   using Sink = std::function<void(const DecodedFrame&)>;
 
   virtual ~FrameDecoder() = default;
-  /// `read_time_s`: when the bytes were read. Byte i of `size` cannot have arrived later than the wire needs
-  /// for the `size - 1 - i` bytes behind it, which is taken off.
+  /// `read_time_s`: when the bytes were read. Byte i of `size` must have arrived earlier by the time that the
+  /// `size - 1 - i` bytes behind it need on the wire; that time is subtracted.
   virtual void push(const std::uint8_t* data, std::size_t size, double read_time_s, const Sink& sink) = 0;
-  /// Begins a new stream; counters go on.
+  /// Begins a new stream; the counters keep their values.
   virtual void reset() = 0;
   virtual DecoderCounters counters() const = 0;
-  /// Time on the wire from a frame's first to its last byte, with start and stop bits.
+  /// Time on the wire from the first to the last byte of a frame, with start and stop bits.
   virtual double wireTime_s() const = 0;
 };
 

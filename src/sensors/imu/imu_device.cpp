@@ -9,9 +9,9 @@
 namespace stereo_nav::imu {
 namespace {
 
-/// Rate and jitter are measured over this time.
+/// Time over which rate and jitter are measured.
 constexpr double kReportPeriod_s = 5.0;
-/// A silent port is opened anew after this time: some adapters need it.
+/// A silent port is opened again after this time; some adapters need it.
 constexpr double kReopenSilent_s = 5.0;
 
 }  // namespace
@@ -28,7 +28,7 @@ void ImuDeviceParams::describe(ParameterVisitor& visitor) {
             {{"yaw_pitch_roll", AngleOrder::kYawPitchRoll}, {"roll_pitch_yaw", AngleOrder::kRollPitchYaw}},
             "order of the angle module's three numbers");
   visitor.real("latency_s", latency_s, {-1.0, 1.0}, "s",
-               "age of a measurement when the module begins to send it; taken off the stamps");
+               "age of a measurement when the module begins to send it; subtracted from the stamps");
   visitor.real("retry_s", retry_s, {0.05, 60.0}, "s", "time between attempts to open the port");
   visitSection(visitor, "gate", gate);
   visitSection(visitor, "stamps", stamps);

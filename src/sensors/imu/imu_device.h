@@ -37,7 +37,7 @@ struct ImuReading {
 /// A snapshot for diagnostics. Jitters are standard deviations, see JitterMeter.
 struct ImuDeviceStatus {
   LinkState state = LinkState::kDisconnected;
-  std::string message;  ///< what is seen, and when something is wrong the likely cause and the remedy
+  std::string message;  ///< what is seen; when something is wrong, also the likely cause and the remedy
   double rate_hz = 0.0;
   double arrival_jitter_s = 0.0;
   double stamp_jitter_s = 0.0;
@@ -45,21 +45,21 @@ struct ImuDeviceStatus {
   DecoderCounters counters;
 };
 
-/// Seconds of CLOCK_MONOTONIC, which the readings' times count in.
+/// Seconds of CLOCK_MONOTONIC, the clock of the readings' times.
 double steadyNow_s();
 
-/// A module on a serial port that may come, go and fall silent. Never throws for what the line does: it
-/// reports, retries every `retry_s`, and resumes.
+/// A module on a serial port that may appear, disappear and fall silent. Faults of the line never throw: the
+/// device reports them, retries every `retry_s`, and resumes.
 class ImuDevice {
  public:
   using Sink = std::function<void(const ImuReading&)>;
 
   ImuDevice(const ImuDeviceParams& params, PortFinder port);
 
-  /// Waits for bytes for at most `timeout_s` and hands on what they complete. To be called from one thread in
-  /// a loop.
+  /// Waits for bytes for at most `timeout_s` and passes on the readings that they complete. To be called from
+  /// one thread in a loop.
   void poll(double timeout_s, const Sink& sink);
-  /// From any thread. Rate and jitter are those of the last full five seconds.
+  /// May be called from any thread. Rate and jitter are those of the last full five seconds.
   ImuDeviceStatus status() const;
 
  private:

@@ -11,24 +11,25 @@
 
 namespace stereo_nav::imu {
 
-/// What is known after a reading; absent what the module does not deliver (yet). IMU frame, front-left-up.
+/// What is known after a reading. What the module does not deliver (yet) is absent. IMU frame, front-left-up.
 struct ImuEstimate {
   std::optional<Eigen::Quaterniond> q_world_imu;
   std::optional<Eigen::Vector3d> angular_velocity;     ///< rad/s
   std::optional<Eigen::Vector3d> linear_acceleration;  ///< m/s^2, gravity included
 };
 
-/// Makes orientation and rates of the readings of either kind of module: of angles by the thesis' convention
-/// and differentiation, of raw measurements by calibration and attitude filter.
+/// Computes orientation and rates from the readings of either kind of module: from angles by the thesis'
+/// convention and differentiation, from raw measurements by calibration and an attitude filter.
 class ImuEstimator {
  public:
   ImuEstimator(const AttitudeParams& attitude, const ImuCalibration& calibration, double rate_window_s);
 
   ImuEstimate process(const ImuReading& reading);
 
-  /// The present heading becomes zero.
+  /// Makes the present heading zero.
   void resetYaw();
-  /// Replaces the gyroscope's bias (rad/s, of the raw measurements), also the one that the filter had found.
+  /// Replaces the gyroscope's bias (rad/s, of the raw measurements). A bias that the filter had found is
+  /// discarded.
   void setGyroBias(const Eigen::Vector3d& bias);
   const ImuCalibration& calibration() const { return calibration_; }
 

@@ -5,10 +5,10 @@
 
 namespace stereo_nav::imu {
 
-/// What can be said of the line to the module.
+/// The state of the line to the module.
 enum class LinkState {
-  kDisconnected,  ///< the port cannot be opened, or has gone
-  kWaiting,       ///< opened, too early to say
+  kDisconnected,  ///< the port cannot be opened, or has disappeared
+  kWaiting,       ///< opened, but too early to tell
   kSilent,        ///< no bytes
   kNoFrames,      ///< bytes, but no frame
   kStreaming
@@ -17,7 +17,7 @@ enum class LinkState {
 /// Spread of the arrivals and of the stamps made from them.
 class JitterMeter {
  public:
-  /// `device_clock`: the module's own time or frame number; when it steps back, the meter begins anew.
+  /// `device_clock`: the module's own time or frame number. When it steps back, the meter starts again.
   void add(double arrival_s, double stamp_s, double device_clock);
   void restart() { *this = JitterMeter(); }
 
@@ -36,13 +36,13 @@ class JitterMeter {
   double deviation_mean_ = 0.0, deviation_m2_ = 0.0;
 };
 
-/// Tells the states of a serial link apart by the bytes and frames of the last seconds.
+/// Determines the state of a serial link from the bytes and frames of the last seconds.
 class LinkMonitor {
  public:
   /// A stream is called silent or frameless after this time.
   static constexpr double kPatience_s = 1.0;
 
-  /// Opening anew what was not closed changes nothing: a silent port stays silent.
+  /// Opening a port again that was not closed changes nothing: a silent port stays silent.
   void opened(double now_s);
   bool open() const { return open_; }
   void closed() { open_ = false; }

@@ -21,10 +21,10 @@ class LowerHull {
   double span() const { return points_.empty() ? 0.0 : points_.back().x - points_.front().x; }
   std::size_t size() const { return points_.size(); }
 
-  /// Slope of the edge over the middle of the span: of all lines below the points the one nearest to them on
-  /// average. Needs two points.
+  /// Slope of the edge over the middle of the span. Of all lines below the points it is the one nearest to
+  /// them on average. Needs two points.
   double middleSlope() const;
-  /// The largest b for which slope * x + b is above no point. Needs a point.
+  /// The largest b for which the line slope * x + b lies above no point. Needs a point.
   double offset(double slope) const;
 
  private:

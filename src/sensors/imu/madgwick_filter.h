@@ -11,8 +11,9 @@ class MadgwickFilter : public AttitudeFilter {
  public:
   using AttitudeFilter::AttitudeFilter;
 
-  /// Sum of squared differences between measured and expected directions, and its gradient by (w, x, y, z);
-  /// a direction that is not there contributes nothing. Public for the test against numeric differences.
+  /// Sum of squared differences between measured and expected directions, and its gradient with respect to
+  /// (w, x, y, z). An absent direction (null) contributes nothing. Public for the test against numeric
+  /// differences.
   static double objective(const Eigen::Vector4d& wxyz, const Eigen::Vector3d* up,
                           const Eigen::Vector3d* field, const Eigen::Vector3d& field_reference);
   static Eigen::Vector4d gradient(const Eigen::Vector4d& wxyz, const Eigen::Vector3d* up,

@@ -9,11 +9,11 @@ namespace fs = std::filesystem;
 
 std::string PortFinder::locate() const {
   std::error_code error;
-  return !lasting_name_.empty() && fs::exists(lasting_name_, error) ? lasting_name_ : port_;
+  return !persistent_name_.empty() && fs::exists(persistent_name_, error) ? persistent_name_ : port_;
 }
 
 void PortFinder::remember() {
-  if (!lasting_name_.empty()) return;
+  if (!persistent_name_.empty()) return;
   std::error_code error;
   const fs::path device = fs::canonical(port_, error);
   if (error) return;
@@ -21,7 +21,7 @@ void PortFinder::remember() {
        entry.increment(error)) {
     std::error_code broken_link;
     if (fs::canonical(entry->path(), broken_link) == device && !broken_link) {
-      lasting_name_ = entry->path().string();
+      persistent_name_ = entry->path().string();
       return;
     }
   }

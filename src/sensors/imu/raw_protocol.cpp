@@ -14,12 +14,12 @@ constexpr std::uint8_t kSync1 = 0x5A;
 constexpr std::uint8_t kTypeInertial = 1;
 constexpr std::uint8_t kTypeWithMagnetometer = 2;
 
-// Beyond what any module of this class can measure (4000 deg/s, 32 g, 100 times the earth's field).
+// Values beyond what any module of this class can measure (4000 deg/s, 32 g, 100 times the earth's field).
 constexpr double kMaxRate_rad_s = 70.0;
 constexpr double kMaxAcceleration_m_s2 = 320.0;
 constexpr double kMaxField_uT = 5000.0;
 
-/// A larger gap in the sequence means that the module began again.
+/// A larger gap in the sequence means that the module was restarted.
 constexpr std::uint16_t kRestartGap = 10000;
 
 std::size_t payloadBytes(std::uint8_t type) {
@@ -93,7 +93,7 @@ std::optional<RawFrame> RawParser::push(std::uint8_t byte) {
   }
 }
 
-/// Drops what cannot begin a frame.
+/// Drops bytes that cannot begin a frame.
 void RawParser::alignToPrefix() {
   while (size_ > 0 && !prefixAtFront()) skip();
 }

@@ -19,21 +19,21 @@ class SerialError : public std::runtime_error {
   PortFault fault_;
 };
 
-/// What to say about a port that open() refused with `error_number`.
+/// The error to report for a port whose open() failed with `error_number`.
 SerialError explainOpenError(const std::string& path, int error_number);
 
-/// A serial port for reading: 8N1, raw, non-blocking, any baud rate, locked against other programs that lock
-/// (flock, TIOCEXCL). Closing does not drop DTR, which would restart an Arduino.
+/// A serial port for reading: 8N1, raw, non-blocking, any baud rate, locked against other programs that use
+/// locks (flock, TIOCEXCL). Closing does not drop DTR, which would restart an Arduino.
 class SerialPort {
  public:
-  /// Throws SerialError. Bytes that came before are discarded.
+  /// Throws SerialError. Bytes that came before the opening are discarded.
   SerialPort(const std::string& path, int baud_rate);
   ~SerialPort();
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
   /// Waits for bytes for at most `timeout_s` and returns how many were read, 0 when none came. Throws
-  /// SerialError (kLost) when the device has gone.
+  /// SerialError (kLost) when the device has disappeared.
   std::size_t read(std::uint8_t* buffer, std::size_t capacity, double timeout_s);
   const std::string& path() const { return path_; }
 

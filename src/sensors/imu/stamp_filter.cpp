@@ -5,19 +5,22 @@
 namespace stereo_nav::imu {
 namespace {
 
-/// Arrivals that stay late this long are not batched but renumbered.
+/// When all arrivals are late for this long, the cause is not batching: frames were lost unnoticed.
 constexpr double kStepWatch_s = 0.5;
-/// No arrival for longer than this: the program slept, or the module did.
+/// When no frame arrives for longer than this, either the program or the module was stopped.
 constexpr double kSilence_s = 0.1;
-/// Stamps keep at least this share of the period between them when the line is re-estimated.
+/// When the line is re-estimated, successive stamps stay apart by at least this share of the period.
 constexpr double kMinStep = 0.1;
 
 }  // namespace
 
 void StampFilterParams::describe(ParameterVisitor& visitor) {
-  visitor.real("window_s", window_s, {2.0, 600.0}, "s",
-               "arrivals the device clock is estimated from; longer is smoother, shorter follows its drift");
-  visitor.real("settle_s", settle_s, {0.2, 60.0}, "s", "time before the device clock's rate is re-estimated");
+  visitor.real(
+      "window_s", window_s, {2.0, 600.0}, "s",
+      "time of the arrivals from which the device clock is estimated; longer is smoother, shorter follows "
+      "its drift");
+  visitor.real("settle_s", settle_s, {0.2, 60.0}, "s",
+               "time after which the rate of the device clock is re-estimated for the first time");
 }
 
 void StampFilter::reset() {
@@ -80,8 +83,8 @@ void StampFilter::addToWindow(double x, double arrival_s) {
   younger_.add(x, arrival_s);
 }
 
-/// Waits from the first late arrival on, anew after each silence: frames that queued while this program slept
-/// come late, all at once, and say nothing about what the module lost.
+/// Measures how long arrivals have been late, starting again after each silence: frames that queued while
+/// this program was stopped come late, all at once, and say nothing about lost frames.
 void StampFilter::watchForStep(double late_s, double threshold_s, double arrival_s) {
   if (late_s <= threshold_s) {
     late_since_s_.reset();

@@ -14,7 +14,7 @@ struct StampFilterParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Recovers when a module sent its frames from when they arrived.
+/// Estimates when a module sent its frames from when they arrived.
 ///
 /// Model: frame number x left the module at p x + t0, with the module's own, nearly constant period p. It
 /// arrived d later, where d >= 0 varies: a USB adapter collects bytes and hands them over every 1 to 16 ms,
@@ -27,8 +27,9 @@ struct StampFilterParams {
 /// The window moves on in two overlapping generations of `window_s` each, of which the older one gives the
 /// line. Its slope is replaced only by one from as long a span, or from half a window: at the very start
 /// after `settle_s`, before that it is the mean rate so far, and stamps are accurate only to the batching
-/// divided by the time passed. Frames lost unnoticed would shift all later ones: when half a second of
-/// arrivals stays late by more than half a period, the window begins anew with the slope it had.
+/// divided by the time passed. Frames that are lost unnoticed would shift all later ones: when the arrivals
+/// of half a second are all late by more than half a period, the window starts again with the slope that it
+/// had.
 class StampFilter {
  public:
   explicit StampFilter(const StampFilterParams& params) : params_(params) {}
@@ -37,11 +38,12 @@ class StampFilter {
   /// `step`: what a lost frame adds to x. `arrival_s`: seconds on a steady clock.
   /// Returns the sending time in seconds on that steady clock, larger than the one before.
   double stamp(double x, double step, double arrival_s);
-  /// The device clock stood still for an unknown time before the next frame: only its rate is known further.
+  /// Tells that the device clock stood still for an unknown time before the next frame: only its rate remains
+  /// known.
   void restartClock();
   void reset();
 
-  /// Seconds per unit of x; nothing before the second frame.
+  /// Seconds per unit of x; absent before the second frame.
   std::optional<double> slope() const { return slope_; }
 
  private:
@@ -57,7 +59,7 @@ class StampFilter {
   double younger_start_s_ = 0.0;
   std::optional<double> last_x_, last_stamp_s_;
   double first_x_ = 0.0, first_arrival_s_ = 0.0;
-  double slope_span_s_ = 0.0;  ///< what the slope was measured over; 0 before the first settled window
+  double slope_span_s_ = 0.0;  ///< time over which the slope was measured; 0 before the first settled window
   std::optional<double> late_since_s_;
   double last_arrival_s_ = 0.0;
 };

@@ -1,4 +1,4 @@
-// How the IMU is turned on the robot, from a recording in which the rig was turned about all axes.
+// Finds the rotation of the IMU on the robot from a recording in which the rig was turned about all axes.
 #include <cmath>
 #include <cstdio>
 #include <iostream>

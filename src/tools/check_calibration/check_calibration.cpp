@@ -1,4 +1,5 @@
-// How good a stereo calibration is, and where the checkerboard stands: from images, a recording or live.
+// Measures how good a stereo calibration is, and where the checkerboard stands: from images, a recording or
+// live topics.
 #include <ros/ros.h>
 
 #include <cmath>
@@ -105,7 +106,7 @@ class Checker {
     if (!corners) return true;
     views_.push_back(calibration::measureView(checked_.rig, options_.board, pair.name, *corners));
     corners_.push_back(*corners);
-    checked_.largest_skew_s = std::max(checked_.largest_skew_s, std::abs(pair.skew_s));
+    checked_.largest_time_offset_s = std::max(checked_.largest_time_offset_s, std::abs(pair.time_offset_s));
     std::cout << viewLine(views_.back()) << std::flush;
     return views_.size() < options_.views;
   }

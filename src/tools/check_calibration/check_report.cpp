@@ -74,14 +74,14 @@ ViewSize rawView(const calibration::CameraModel& camera) {
   return {degrees(camera.horizontalView_rad()), degrees(camera.verticalView_rad())};
 }
 
-/// What cannot be read off the views but off how they were taken.
+/// Notes that follow from how the views were taken, not from the views themselves.
 std::vector<std::string> allNotes(const CheckedInput& input, const CalibrationCheck& check) {
   std::vector<std::string> notes = check.notes;
-  constexpr double kSkew_s = 0.002;
-  if (input.largest_skew_s > kSkew_s) {
+  constexpr double kSimultaneous_s = 0.002;
+  if (input.largest_time_offset_s > kSimultaneous_s) {
     notes.push_back(
         fmt::format("the images of a pair are up to {:.0f} ms apart: only a board at rest gives true figures",
-                    1000.0 * input.largest_skew_s));
+                    1000.0 * input.largest_time_offset_s));
   }
   return notes;
 }

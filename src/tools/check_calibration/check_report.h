@@ -6,17 +6,17 @@
 
 namespace stereo_nav::tools {
 
-/// What was looked at.
+/// The input of a check.
 struct CheckedInput {
   std::string input;        ///< file, folder or topics
   std::string calibration;  ///< where it came from
   std::size_t pairs = 0;
   calibration::Checkerboard board;
   calibration::StereoRig rig;
-  double largest_skew_s = 0.0;  ///< between the images of a pair
+  double largest_time_offset_s = 0.0;  ///< between the images of a pair
 };
 
-/// One line on a view's board: position in m, angles in deg (calibration::BoardAngles), errors in px.
+/// One line about the board in a view: position in m, angles in deg (calibration::BoardAngles), errors in px.
 std::string viewLine(const calibration::ViewFigures& view);
 /// The heading that belongs to it.
 std::string viewHeading();

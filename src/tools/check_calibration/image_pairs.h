@@ -8,15 +8,15 @@
 
 namespace stereo_nav::tools {
 
-/// A pair of raw images from wherever.
+/// A pair of raw images from any source.
 struct ImagePair {
   std::string name;
-  cv::Mat left;   ///< CV_8UC1
-  cv::Mat right;  ///< CV_8UC1
-  double skew_s;  ///< right stamp minus left stamp; 0 for files
+  cv::Mat left;          ///< CV_8UC1
+  cv::Mat right;         ///< CV_8UC1
+  double time_offset_s;  ///< right stamp minus left stamp; 0 for files
 };
 
-/// Takes pairs; false: no more are wanted.
+/// Receives pairs; returns false when no more are wanted.
 using PairSink = std::function<bool(const ImagePair&)>;
 
 /// Pairs of files in a folder: left*.EXT and right*.EXT with the same rest of the name, or equal names in
@@ -24,7 +24,7 @@ using PairSink = std::function<bool(const ImagePair&)>;
 /// image.
 void readFolder(const std::string& folder, const PairSink& sink);
 
-/// Takes the camera_infos that belong to the pairs, before the first of them.
+/// Receives the camera_infos that belong to the pairs, before the first pair.
 using InfoSink = std::function<void(const CameraInfos&)>;
 
 /// Pairs of a recording, the next one at least `interval_s` after the one before.

@@ -48,7 +48,7 @@ class Listener {
     return CameraInfos{*left_info_, *right_info_};
   }
 
-  /// What has come and what has not, for the error.
+  /// Describes for the error message what has come and what has not.
   std::string seen() const {
     return std::to_string(left_images_) + " images on " + handle_.resolveName(topics::kLeftImage) + ", " +
            std::to_string(right_images_) + " on " + handle_.resolveName(topics::kRightImage) +

@@ -16,11 +16,11 @@ struct ImuSource {
   std::string angle_order = "yaw_pitch_roll";
 
   void addOptions(boost::program_options::options_description& options);
-  /// After parsing. Throws ParameterError.
+  /// To be called after parsing. Throws ParameterError.
   void finish();
 
-  /// Reads until `keepGoing` says no (asked every 0.1 s) or SIGINT comes; faults of the line go to stderr
-  /// when they begin.
+  /// Reads until `keepGoing` (asked every 0.1 s) returns false or SIGINT comes. Faults of the line are
+  /// written to stderr when they begin.
   imu::ImuDeviceStatus read(const std::function<bool()>& keep_going, const imu::ImuDevice::Sink& sink) const;
 };
 

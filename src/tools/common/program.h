@@ -6,7 +6,7 @@
 
 namespace stereo_nav::tools {
 
-/// What every program does with an error: one line on standard error that begins with the program's name, and
+/// Runs a program and reports its errors: one line on standard error that begins with the program's name, and
 /// exit status 2. Errors of the command line point to --help.
 inline int runProgram(const char* name, int (*run)(int, char**), int argc, char** argv) {
   try {

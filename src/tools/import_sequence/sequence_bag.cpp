@@ -30,14 +30,15 @@ struct Pair {
   std::size_t right;
 };
 
-/// The base where a layout has none: at the camera, with the axes of a robot.
+/// Converts coordinates in optical axes (x right, y down, z forward) into those of a robot (x forward, y
+/// left, z up).
 Eigen::Isometry3d robotFromOptical() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = opticalToBody();
   return T;
 }
 
-/// The pairs that go into the bag, in order of time.
+/// Chooses the pairs that go into the bag, in order of time.
 std::vector<Pair> choosePairs(const Sequence& sequence, const BagOptions& options, BagSummary& summary) {
   const auto synchronous = ros_io::pairStamps(sequence.left.stamps, sequence.right.stamps, {});
   std::vector<Pair> pairs;
@@ -63,7 +64,7 @@ std::string encodingOf(const cv::Mat& image) {
   return image.type() == CV_16UC1 ? "mono16" : "bgr8";
 }
 
-/// Puts messages into the bag; everything it needs to know of one kind of message is in one function.
+/// Writes messages into the bag; each kind of message has one function.
 class BagWriter {
  public:
   BagWriter(Sequence& sequence, const BagOptions& options, std::vector<Pair> pairs, const std::string& path)
@@ -94,7 +95,7 @@ class BagWriter {
   }
 
  private:
-  /// One message, or several of one stamp, still to be written.
+  /// One message, or several with one stamp, that are still to be written.
   struct Event {
     ros::Time time;
     void (BagWriter::*write)(std::size_t index);
@@ -182,7 +183,7 @@ class BagWriter {
 
   void writeGroundTruth(std::size_t i) {
     const CameraPose& truth = sequence_.ground_truth[i];
-    // A layout with a body (EuRoC) has a world with z up; without, the world has optical axes.
+    // A layout with a body (EuRoC) has a world with z up; without a body, the world has optical axes.
     const Eigen::Isometry3d T_world_layout =
         sequence_.T_body_camera ? Eigen::Isometry3d::Identity() : T_base_camera_;
     nav_msgs::Odometry odometry;

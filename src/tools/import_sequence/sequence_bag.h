@@ -12,7 +12,7 @@ enum class BaseFrame { kImu, kCamera };
 struct BagOptions {
   int every = 1;                      ///< keep every N-th left image
   int right_lag_frames = 0;           ///< take the right image this many original frames after the left one
-  double right_stamp_offset_s = 0.0;  ///< by which the right stamps lie
+  double right_stamp_offset_s = 0.0;  ///< constant error that is added to the right stamps
   bool imu = true;
   BaseFrame base_frame = BaseFrame::kCamera;
 };

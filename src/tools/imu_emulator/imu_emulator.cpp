@@ -21,10 +21,10 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-/// Frames wait on the line for at most this long; a module whose line is too slow leaves frames out.
+/// The longest time that a frame waits for the line; a module whose line is too slow leaves frames out.
 constexpr double kMaxBacklog_s = 0.005;
 
-/// The port stays after the last frame until it is read, too.
+/// How long the port stays after the last frame, so that the last frame can be read.
 constexpr double kLinger_s = 1.0;
 /// A pseudo-terminal holds less than the kernel does for a real serial port; this makes up for it.
 constexpr std::size_t kKernelBuffer = 65536;

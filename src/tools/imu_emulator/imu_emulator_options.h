@@ -9,7 +9,7 @@
 
 namespace stereo_nav::tools {
 
-/// A time at which something begins and how long it lasts; never, unless given.
+/// The time at which something begins and how long it lasts; it never happens unless given.
 struct Interval {
   double start_s = -1.0;
   double duration_s = 0.0;

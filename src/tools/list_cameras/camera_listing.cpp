@@ -27,7 +27,7 @@ std::string ratesText(const std::vector<double>& rates_hz) {
 void printFormats(V4l2Device& device, std::ostream& out) {
   std::vector<std::pair<std::string, std::string>> lines;
   for (const auto& format : device.offeredFormats()) {
-    const bool usable = pixelFormatOf(format.fourcc) != PixelFormat::Any;
+    const bool usable = pixelFormatOf(format.fourcc) != PixelFormat::kAny;
     const std::string key = fourccText(format.fourcc) + (usable ? "" : " (not usable here)") + " at " +
                             ratesText(format.rates_hz) + " Hz";
     const std::string size = std::to_string(format.width) + "x" + std::to_string(format.height);

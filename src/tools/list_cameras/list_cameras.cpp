@@ -1,4 +1,4 @@
-// What is connected, in words to choose from: list_cameras [--controls]
+// Lists the connected cameras for the user to choose from: list_cameras [--controls]
 #include <cstring>
 #include <iostream>
 

@@ -12,10 +12,10 @@ namespace {
 
 namespace topics = ros_io::topics;
 
-/// Simulation time 0; any date is as good, a fixed one gives the same bytes every time.
+/// ROS time of simulation time 0. Any date will do; a fixed one gives the same bytes every time.
 const ros::Time kStart(1000000000, 0);
 
-/// Writes in order of arrival what lies between pairs.
+/// Writes the messages between pairs in order of arrival.
 class BagWriter {
  public:
   BagWriter(ros_io::BagFile& bag, const sim::Simulation& simulation,

@@ -1,17 +1,15 @@
-#include "core/angles.h"
 #include "stereo_nav/calibration/board_pose.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "core/angles.h"
 #include "support/simulated_board.h"
 #include "support/stereo_webcams.h"
 
 namespace stereo_nav::calibration {
 namespace {
-
-
 
 struct RectifiedCorners {
   std::vector<Eigen::Vector2d> left, right;

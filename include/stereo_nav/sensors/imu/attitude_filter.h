@@ -18,8 +18,8 @@ struct InertialSample {
 
 enum class AttitudeMethod { kMahony, kMadgwick };
 
-/// The gains are for a robot that drives: low, since every curve and every braking tilts what the
-/// accelerometer measures, while the gyroscope is calibrated.
+/// The gains are low, for a robot that drives: every curve and every braking tilts what the accelerometer
+/// measures, while the gyroscope is calibrated.
 struct AttitudeParams {
   AttitudeMethod method = AttitudeMethod::kMahony;  ///< which filter is made by makeAttitudeFilter()
   bool use_magnetometer = false;                    ///< whether the heading comes from the magnetic field
@@ -36,23 +36,24 @@ struct AttitudeParams {
 /// Attitude from gyroscope, accelerometer and, when wanted, magnetometer.
 ///
 /// `q_world_imu` takes IMU coordinates into a world with z up. Its x axis points east when a magnetometer is
-/// used (REP-103; declination is not corrected), otherwise along the IMU's x axis at the start. Without
-/// magnetometer the yaw drifts by the gyroscope's remaining bias; nothing can be done about that here.
+/// used (REP-103; declination is not corrected), otherwise along the IMU's x axis at the start. Without a
+/// magnetometer the yaw drifts by the gyroscope's remaining bias; a filter cannot prevent that.
 ///
-/// The accelerometer measures gravity only while the robot does not accelerate: samples whose magnitude is
-/// off from 9.80665 by more than `acceleration_gate_m_s2` are integrated by gyroscope alone.
+/// The accelerometer measures gravity only while the robot does not accelerate: samples whose magnitude
+/// differs from 9.80665 by more than `acceleration_gate_m_s2` are integrated from the gyroscope alone.
 class AttitudeFilter {
  public:
   /// Standard gravity.
   static constexpr double kGravity_m_s2 = 9.80665;
-  /// Over a longer gap nothing is integrated: tilt is taken from the accelerometer again, heading is kept.
+  /// Nothing is integrated over a longer gap: the tilt is taken from the accelerometer again, the heading is
+  /// kept.
   static constexpr double kMaxGap_s = 0.2;
 
   /// The filter starts with the first usable sample.
   explicit AttitudeFilter(const AttitudeParams& params) : params_(params) {}
   virtual ~AttitudeFilter() = default;
 
-  /// Samples must come with growing time; others are ignored (returns false).
+  /// The times of the samples must increase; a sample that does not is ignored, and false is returned.
   bool update(const InertialSample& sample);
   /// Forgets attitude and bias; the next usable sample is a new start.
   void reset();
@@ -73,7 +74,8 @@ class AttitudeFilter {
     std::optional<Eigen::Vector3d> up;     ///< measured, unit, IMU frame
     std::optional<Eigen::Vector3d> field;  ///< measured, unit, IMU frame
   };
-  /// Advances `q_world_imu_` by `dt_s`; need not normalise. May change `gyro_bias_`.
+  /// Advances `q_world_imu_` by `dt_s`. The result need not be normalised. The function may change
+  /// `gyro_bias_`.
   virtual void step(const Eigen::Vector3d& angular_velocity, const Directions& measured, double dt_s) = 0;
 
   /// As given to the constructor.

@@ -36,7 +36,7 @@ struct ImuCalibration {
 
 /// Throws ParameterError.
 ImuCalibration loadCalibration(const std::string& path);
-/// Replaces the file in one step. Throws std::runtime_error.
+/// Replaces the file atomically. Throws std::runtime_error.
 void saveCalibration(const ImuCalibration& calibration, const std::string& path);
 
 /// How long the module must rest, and what counts as rest.

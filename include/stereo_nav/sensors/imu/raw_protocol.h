@@ -28,8 +28,8 @@ struct RawParserCounters {
   std::uint64_t bytes = 0;          ///< received
   std::uint64_t bytes_skipped = 0;  ///< outside of good frames
   std::uint64_t delivered = 0;      ///< good frames
-  std::uint64_t bad_crc = 0;        ///< a frame's beginning was found, but the check sum does not agree
-  std::uint64_t impossible = 0;     ///< check sum good, but values no such sensor measures
+  std::uint64_t bad_crc = 0;        ///< the beginning of a frame was found, but its check sum is wrong
+  std::uint64_t impossible = 0;     ///< the check sum is right, but no such sensor measures these values
   std::uint64_t lost = 0;           ///< gaps in the sequence numbers
 };
 
@@ -59,11 +59,12 @@ constexpr std::size_t kMaxFrameBytes =
 std::size_t encode(const RawMeasurement& measurement, std::uint8_t* frame);
 }  // namespace raw_protocol
 
-/// Finds raw frames in a byte stream. After damage it searches on from the byte behind the false beginning,
-/// so that no intact frame is lost. Fixed buffer: no allocation, no read beyond it, bounded work per byte.
+/// Finds raw frames in a byte stream. After damage it continues the search at the byte behind the false
+/// beginning, so that no intact frame is lost. It works on a fixed buffer: no allocation, no read beyond it,
+/// bounded work per byte.
 class RawParser {
  public:
-  /// A frame is returned with its last byte, or up to one frame later when a false beginning hid it.
+  /// Returns a frame with its last byte, or up to one frame later when a false beginning hid it.
   std::optional<RawFrame> push(std::uint8_t byte);
   /// Forgets a partly received frame and the sequence, e.g. when the port was opened again.
   void reset();

@@ -7,7 +7,7 @@
 namespace stereo_nav::imu {
 namespace {
 
-/// Northwards (y) and down, as in central Europe.
+/// Points north (y) and down, as in central Europe.
 const Eigen::Vector3d kField_uT(0.0, 20.0, -44.0);
 
 double quantised(double value, double resolution) {

@@ -9,7 +9,7 @@
 
 namespace stereo_nav::imu {
 
-/// How far the module is from a perfect one. The defaults are perfect.
+/// The errors of the module. By default it has none.
 struct ModuleErrors {
   double angle_noise_deg = 0.0;       ///< standard deviation of each angle
   double angle_resolution_deg = 0.0;  ///< angles are multiples of this; 0: as the float has them
@@ -21,14 +21,14 @@ struct ModuleErrors {
   double accelerometer_noise_m_s2 = 0.0;  ///< standard deviation of a sample
 };
 
-/// Turns motion into the frames a module would send. Deterministic for a seed.
+/// Turns motion into the frames that a module would send. Deterministic for a seed.
 class EmulatedModule {
  public:
   EmulatedModule(Protocol protocol, AngleOrder order, bool magnetometer, const ModuleErrors& errors,
                  unsigned seed)
       : protocol_(protocol), order_(order), magnetometer_(magnetometer), errors_(errors), random_(seed) {}
 
-  /// Bytes of the frame for the state at `time_s` of the module's clock.
+  /// The bytes of the frame for the state at `time_s` of the module's clock.
   std::vector<std::uint8_t> frame(const MotionState& state, double time_s);
   /// The angles that the last angle frame carried.
   const ModuleAngles& lastAngles() const { return last_angles_; }

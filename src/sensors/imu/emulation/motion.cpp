@@ -22,7 +22,7 @@ Vector3d rateOf(const std::function<Quaterniond(double)>& attitude, double time_
   return logRotation(turn) / (2.0 * kHalf_s);
 }
 
-/// The pose at a time, between the two recorded ones around it.
+/// The pose at a time, interpolated between the two recorded ones around it.
 struct Interpolated {
   Vector3d position_m;
   Quaterniond q_world_imu;
@@ -64,7 +64,7 @@ Motion slowTurns() {
   return rotatingMotion([](double t) {
     const int axis = static_cast<int>(std::floor(t / kTurn_s)) % 3;
     const double angle = 2.0 * M_PI * std::fmod(std::max(t, 0.0), kTurn_s) / kTurn_s;
-    // Turns about z start from the x axis pointing up, so that every axis meets gravity.
+    // Turns about z start with the x axis pointing up, so that every axis feels gravity.
     const Quaterniond start = std::max(axis, 0) == 2 ? Quaterniond(AngleAxisd(-M_PI / 2, Vector3d::UnitY()))
                                                      : Quaterniond::Identity();
     return Quaterniond(start * AngleAxisd(angle, Vector3d::Unit(std::max(axis, 0))));

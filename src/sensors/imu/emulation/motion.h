@@ -8,7 +8,7 @@
 
 namespace stereo_nav::imu {
 
-/// What a perfect IMU would feel and be.
+/// What a perfect IMU would measure, and its true attitude.
 struct MotionState {
   Eigen::Quaterniond q_world_imu = Eigen::Quaterniond::Identity();
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();     ///< rad/s, IMU frame
@@ -24,14 +24,13 @@ Motion rotatingMotion(std::function<Eigen::Quaterniond(double)> attitude);
 /// Starts at `start` and turns each angle at a constant rate (degrees per second, module's convention).
 Motion constantRates(const ModuleAngles& start, const ModuleAngles& rates_deg_s);
 
-/// A slow full turn about each of the IMU's axes, 12 s each, again and again: for the calibration of an
-/// accelerometer.
+/// Repeats a slow full turn about each of the IMU's axes, 12 s each, for the calibration of an accelerometer.
 Motion slowTurns();
 
 /// A robot driving about: yaw, pitch and roll swing with different periods.
 Motion swaying();
 
-/// Three angles whose floats begin with the bytes `its`, for ever: the worst case of the angle protocol.
+/// Constant angles whose floats begin with the bytes `its`: the worst case of the angle protocol.
 Motion headerInsideFloats();
 
 /// Follows recorded poses of the IMU (at least two), interpolated, and stays at the last one; the

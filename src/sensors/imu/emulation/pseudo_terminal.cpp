@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A rate that no module uses marks a terminal that nobody has configured.
+/// A rate that no module uses marks a terminal that no program has configured.
 constexpr speed_t kUnconfigured_baud = 7;
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace stereo_nav::imu {
 
-/// A pseudo-terminal that stands for a plugged-in serial adapter; unplugged by destruction.
+/// A pseudo-terminal that imitates a plugged-in serial adapter; its destruction unplugs it.
 class PseudoTerminal {
  public:
   PseudoTerminal();  ///< throws std::runtime_error
@@ -17,12 +17,12 @@ class PseudoTerminal {
 
   /// Path for the program under test, e.g. /dev/pts/3.
   const std::string& path() const { return path_; }
-  /// Makes the port reachable under another name, too, until it is unplugged; replaces a link there and makes
-  /// its folder. Throws std::filesystem::filesystem_error.
+  /// Makes the port reachable under another name, too, until it is unplugged. An existing link is replaced; a
+  /// missing folder is made. Throws std::filesystem::filesystem_error.
   void link(const std::string& link_path);
-  /// Never blocks. Returns how many bytes were taken; the rest is lost, as in a full adapter.
+  /// Never blocks. Returns how many bytes were accepted; the others are lost, as in a full adapter.
   std::size_t write(const std::vector<std::uint8_t>& bytes);
-  /// The baud rate that the program at the other end has set; nothing while none has.
+  /// The baud rate that the program at the other end has set; absent while none has been set.
   std::optional<int> baudRate() const;
 
  private:

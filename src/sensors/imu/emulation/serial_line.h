@@ -14,7 +14,7 @@ class LineFaults {
   LineFaults(double corrupt_probability, double drop_probability, unsigned seed)
       : corrupt_probability_(corrupt_probability), drop_probability_(drop_probability), random_(seed) {}
 
-  /// Appends to `out` what comes through. Returns whether all bytes did, unchanged.
+  /// Appends to `out` the bytes that come through. Returns whether all of them did, unchanged.
   bool pass(const std::uint8_t* bytes, std::size_t size, std::vector<std::uint8_t>& out);
 
  private:
@@ -22,13 +22,13 @@ class LineFaults {
   std::mt19937 random_;
 };
 
-/// A serial line and the USB adapter at its end: bytes take ten bit times each, one after the other, and are
-/// handed over in batches at multiples of `batch_s` (0: as they come).
+/// A serial line and the USB adapter at its end: each byte takes ten bit times, one after the other, and the
+/// bytes are handed over in batches at multiples of `batch_s` (0: as they come).
 class SerialLine {
  public:
   SerialLine(int baud_rate, double batch_s) : byte_time_s_(10.0 / baud_rate), batch_s_(batch_s) {}
 
-  /// Begins to send at `time_s`, or when the line is free.
+  /// Begins to send at `time_s`, or later when the line becomes free.
   void send(const std::vector<std::uint8_t>& bytes, double time_s);
   /// How long a byte given to the line at `time_s` would have to wait.
   double backlog_s(double time_s) const;
@@ -45,8 +45,8 @@ class SerialLine {
   std::deque<Byte> bytes_;
 };
 
-/// What a receiver at another baud rate makes of the bytes: the line's levels are sampled in the middle of
-/// its own bits. A missing stop bit gives a zero byte, as the kernel delivers it.
+/// What a receiver at another baud rate reads: it samples the levels of the line in the middle of its own
+/// bits. A missing stop bit gives a zero byte, as the kernel delivers it.
 class MismatchedReceiver {
  public:
   MismatchedReceiver(int sender_baud, int receiver_baud)
@@ -59,7 +59,7 @@ class MismatchedReceiver {
   bool level(double bit_time) const;
   bool known(double bit_time) const { return bit_time < static_cast<double>(levels_.size()); }
 
-  double receiver_bit_;      ///< length of the receiver's bit in the sender's
+  double receiver_bit_;      ///< length of the receiver's bit, in bits of the sender
   std::deque<bool> levels_;  ///< sender's bits not consumed yet
   double position_ = 0.0;    ///< in sender's bits, from the front of `levels_`
 };

@@ -82,10 +82,10 @@ TEST_F(StereoCameraTest, AnAutomaticExposureThatTheCameraDoesNotTellIsNotBelieve
   });
   start(config());
   ASSERT_TRUE(morePairsCome());
-  EXPECT_TRUE(rig_->left().exposure_untold);
+  EXPECT_TRUE(rig_->left().exposure_unknown);
   // One that changes while nobody sets it is alive, whatever the driver's flags say.
   kernel_.change(0, [](FakeCamera& camera) { camera.controls[1].value = 24; });
-  EXPECT_TRUE(comesTrue([this] { return !rig_->left().exposure_untold; }));
+  EXPECT_TRUE(comesTrue([this] { return !rig_->left().exposure_unknown; }));
   ASSERT_TRUE(morePairsCome());
   const auto pairs = rig_->stop();
   EXPECT_TRUE(std::isnan(pairs.front().pair.left.exposure_s));

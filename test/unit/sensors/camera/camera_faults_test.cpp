@@ -76,7 +76,7 @@ TEST_F(StereoCameraTest, FiftyCyclesLeaveNothingBehind) {
   start(config());
   for (std::uint64_t cycle = 0; cycle < 50; ++cycle) {
     ASSERT_TRUE(comesTrue([&] {
-      return rig_->right().reconnections == cycle && rig_->right().state == CameraState::Streaming;
+      return rig_->right().reconnections == cycle && rig_->right().state == CameraState::kStreaming;
     }));
     EXPECT_LE(kernel_.openDescriptors(), 4);
     EXPECT_EQ(kernel_.mappings(), 8);

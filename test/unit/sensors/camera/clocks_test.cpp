@@ -70,7 +70,7 @@ class FixedKernel : public Kernel {
   int ioctl(int, unsigned long, void*) override { return -1; }
   void* map(int, std::size_t, std::int64_t) override { return nullptr; }
   void unmap(void*, std::size_t) override {}
-  Ready wait(int, int) override { return Ready::No; }
+  Ready wait(int, int) override { return Ready::kNo; }
   std::int64_t monotonicNow() override { return 500 * kSecond_ns; }
   std::int64_t realtimeNow() override { return 1'700'000'000 * kSecond_ns; }
 };
@@ -95,16 +95,16 @@ TEST(DriverClock, UnknownClocksAreRecognisedWithAWarning) {
   FixedKernel kernel;
   DriverClock clock(kernel);
   EXPECT_EQ(clock.monotonicStamp(bufferStamped(499 * kSecond_ns, 0)), 499 * kSecond_ns);
-  EXPECT_EQ(clock.kind(), DriverClock::Kind::Monotonic);
+  EXPECT_EQ(clock.kind(), DriverClock::Kind::kMonotonic);
   EXPECT_NE(clock.warning(), "");
 
   clock.reset();
   EXPECT_EQ(clock.monotonicStamp(bufferStamped(1'699'999'999 * kSecond_ns, 0)), 499 * kSecond_ns);
-  EXPECT_EQ(clock.kind(), DriverClock::Kind::RealTime);
+  EXPECT_EQ(clock.kind(), DriverClock::Kind::kRealTime);
 
   clock.reset();
   EXPECT_EQ(clock.monotonicStamp(bufferStamped(0, 0)), 500 * kSecond_ns);
-  EXPECT_EQ(clock.kind(), DriverClock::Kind::Unusable);
+  EXPECT_EQ(clock.kind(), DriverClock::Kind::kUnusable);
   EXPECT_NE(clock.warning(), "");
 }
 
@@ -131,14 +131,14 @@ TEST(ClockBeat, MeasuresTheSlideAlsoWhenThePairingMovesOnByAFrame) {
   constexpr std::int64_t kPeriod = 33'333'333;
   constexpr double kRate = 4e-4;
   ClockBeat beat;
-  EXPECT_TRUE(std::isnan(beat.skewRate()));
+  EXPECT_TRUE(std::isnan(beat.timeOffsetRate()));
   for (int i = 0; i < 2000; ++i) {
     const std::int64_t time = i * kPeriod;
     auto skew = std::llround(kRate * static_cast<double>(time)) + 12'000'000;
     while (skew > kPeriod / 2) skew -= kPeriod;
     beat.add(time, skew, kPeriod);
   }
-  EXPECT_NEAR(beat.skewRate(), kRate, 1e-8);
+  EXPECT_NEAR(beat.timeOffsetRate(), kRate, 1e-8);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::vector<std::uint8_t> jpegOf(const cv::Mat& image) {
   return bytes;
 }
 
-const ImageLayout kJpegLayout{PixelFormat::Mjpg, kWidth, kHeight, 0};
+const ImageLayout kJpegLayout{PixelFormat::kMjpg, kWidth, kHeight, 0};
 
 double worstDifference(DecodedImage& image, const cv::Mat& expected) {
   return cv::norm(image.view(), expected, cv::NORM_INF);
@@ -41,9 +41,9 @@ TEST(DecoderJpeg, DecodesToColourAndGrey) {
   const cv::Mat scene = colourScene();
   const auto jpeg = jpegOf(scene);
   DecodedImage image;
-  ASSERT_EQ(decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::Bgr8, image), "");
+  ASSERT_EQ(decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::kBgr8, image), "");
   EXPECT_LE(worstDifference(image, scene), 16);
-  ASSERT_EQ(decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::Mono8, image), "");
+  ASSERT_EQ(decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::kMono8, image), "");
   cv::Mat grey;
   cv::cvtColor(scene, grey, cv::COLOR_BGR2GRAY);
   EXPECT_LE(worstDifference(image, grey), 6);
@@ -63,7 +63,7 @@ TEST(DecoderJpeg, SuppliesTheHuffmanTablesThatWebcamsLeaveOut) {
     }
   }
   DecodedImage image;
-  ASSERT_EQ(decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::Bgr8, image), "");
+  ASSERT_EQ(decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::kBgr8, image), "");
   EXPECT_LE(worstDifference(image, colourScene()), 16);
 }
 
@@ -71,7 +71,7 @@ TEST(DecoderJpeg, LetsFillingBytesBeforeTheEndPass) {
   auto jpeg = jpegOf(colourScene());
   jpeg.insert(jpeg.end() - 2, {0x00, 0x12, 0x34, 0x00});
   DecodedImage image;
-  EXPECT_EQ(decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::Bgr8, image), "");
+  EXPECT_EQ(decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::kBgr8, image), "");
 }
 
 TEST(DecoderJpeg, EveryTruncationIsAnError) {
@@ -79,7 +79,7 @@ TEST(DecoderJpeg, EveryTruncationIsAnError) {
   DecodedImage image;
   for (std::size_t size = 0; size + 2 < jpeg.size(); ++size) {
     const std::vector<std::uint8_t> cut(jpeg.begin(), jpeg.begin() + static_cast<std::ptrdiff_t>(size));
-    EXPECT_NE(decode(cut.data(), cut.size(), kJpegLayout, Encoding::Bgr8, image), "") << size << " bytes";
+    EXPECT_NE(decode(cut.data(), cut.size(), kJpegLayout, Encoding::kBgr8, image), "") << size << " bytes";
   }
 }
 
@@ -95,7 +95,7 @@ TEST(DecoderJpeg, CorruptBytesNeverReachBeyondTheImage) {
     for (int change = 0; change < 1 + run % 8; ++change) {
       broken[position(random)] = static_cast<std::uint8_t>(byte(random));
     }
-    const auto encoding = run % 2 == 0 ? Encoding::Bgr8 : Encoding::Mono8;
+    const auto encoding = run % 2 == 0 ? Encoding::kBgr8 : Encoding::kMono8;
     const auto problem = decode(broken.data(), broken.size(), kJpegLayout, encoding, image);
     refused += problem.empty() ? 0 : 1;
     if (problem.empty()) {
@@ -110,7 +110,7 @@ TEST(DecoderJpeg, AnotherSizeIsAnErrorThatNamesBoth) {
   cv::resize(colourScene(), small, {32, 24});
   const auto jpeg = jpegOf(small);
   DecodedImage image;
-  const auto problem = decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::Bgr8, image);
+  const auto problem = decode(jpeg.data(), jpeg.size(), kJpegLayout, Encoding::kBgr8, image);
   EXPECT_NE(problem.find("32 x 24"), std::string::npos) << problem;
   EXPECT_NE(problem.find("64 x 48"), std::string::npos) << problem;
 }
@@ -129,7 +129,7 @@ class DecoderRaw : public testing::TestWithParam<RawCase> {
     const auto used = minimumBytesPerLine(layout.format, layout.width);
     for (std::size_t row = 0; row * layout.bytes_per_line < bytes.size(); ++row) {
       const bool chroma_row =
-          layout.format == PixelFormat::Nv12 && row >= static_cast<std::size_t>(layout.height);
+          layout.format == PixelFormat::kNv12 && row >= static_cast<std::size_t>(layout.height);
       for (std::size_t i = 0; i < used; ++i) {
         bytes[row * layout.bytes_per_line + i] = sample(layout.format, i, chroma_row);
       }
@@ -140,8 +140,8 @@ class DecoderRaw : public testing::TestWithParam<RawCase> {
   static std::uint8_t sample(PixelFormat format, std::size_t i, bool chroma_row) {
     constexpr std::uint8_t kYuyv[] = {150, 90, 150, 170};
     constexpr std::uint8_t kUyvy[] = {90, 150, 170, 150};
-    if (format == PixelFormat::Yuyv) return kYuyv[i % 4];
-    if (format == PixelFormat::Uyvy) return kUyvy[i % 4];
+    if (format == PixelFormat::kYuyv) return kYuyv[i % 4];
+    if (format == PixelFormat::kUyvy) return kUyvy[i % 4];
     if (chroma_row) return i % 2 == 0 ? 90 : 170;
     return 150;
   }
@@ -155,39 +155,39 @@ class DecoderRaw : public testing::TestWithParam<RawCase> {
 TEST_P(DecoderRaw, GreyIsTheLuma) {
   const auto bytes = flatImage(layout());
   DecodedImage image;
-  ASSERT_EQ(decode(bytes.data(), bytes.size(), layout(), Encoding::Mono8, image), "");
+  ASSERT_EQ(decode(bytes.data(), bytes.size(), layout(), Encoding::kMono8, image), "");
   EXPECT_EQ(worstDifference(image, cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(150))), 0);
 }
 
 TEST_P(DecoderRaw, ColourFollowsBt601) {
   const auto bytes = flatImage(layout());
   DecodedImage image;
-  ASSERT_EQ(decode(bytes.data(), bytes.size(), layout(), Encoding::Bgr8, image), "");
+  ASSERT_EQ(decode(bytes.data(), bytes.size(), layout(), Encoding::kBgr8, image), "");
   // Limited range: B = 1.164 (Y-16) + 2.018 (Cb-128), G = ... - 0.813 (Cr-128) - 0.391 (Cb-128), R = ...
   // + 1.596 (Cr-128) for Y 150, Cb 90, Cr 170.
   const cv::Scalar expected =
-      GetParam().format == PixelFormat::Grey ? cv::Scalar(150, 150, 150) : cv::Scalar(79, 137, 223);
+      GetParam().format == PixelFormat::kGrey ? cv::Scalar(150, 150, 150) : cv::Scalar(79, 137, 223);
   EXPECT_LE(worstDifference(image, cv::Mat(kHeight, kWidth, CV_8UC3, expected)), 2);
 }
 
 TEST_P(DecoderRaw, TooFewBytesAreAnError) {
   const auto bytes = flatImage(layout());
   DecodedImage image;
-  const auto problem = decode(bytes.data(), bytes.size() - 1, layout(), Encoding::Bgr8, image);
+  const auto problem = decode(bytes.data(), bytes.size() - 1, layout(), Encoding::kBgr8, image);
   EXPECT_NE(problem.find("incomplete image"), std::string::npos) << problem;
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, DecoderRaw,
-                         testing::Values(RawCase{PixelFormat::Yuyv, "Yuyv"},
-                                         RawCase{PixelFormat::Uyvy, "Uyvy"},
-                                         RawCase{PixelFormat::Grey, "Grey"},
-                                         RawCase{PixelFormat::Nv12, "Nv12"}),
+                         testing::Values(RawCase{PixelFormat::kYuyv, "Yuyv"},
+                                         RawCase{PixelFormat::kUyvy, "Uyvy"},
+                                         RawCase{PixelFormat::kGrey, "Grey"},
+                                         RawCase{PixelFormat::kNv12, "Nv12"}),
                          [](const auto& test_case) { return test_case.param.name; });
 
 TEST(Decoder, UnknownFormatIsAnError) {
   DecodedImage image;
   const std::uint8_t byte = 0;
-  EXPECT_NE(decode(&byte, 1, ImageLayout{}, Encoding::Mono8, image), "");
+  EXPECT_NE(decode(&byte, 1, ImageLayout{}, Encoding::kMono8, image), "");
 }
 
 }  // namespace

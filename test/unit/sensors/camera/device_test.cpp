@@ -15,7 +15,7 @@
 namespace stereo_nav::camera {
 namespace {
 
-const FormatRequest kRequest{PixelFormat::Any, 32, 16, 250.0};
+const FormatRequest kRequest{PixelFormat::kAny, 32, 16, 250.0};
 
 /// What the failure of `attempt` says.
 template <class Attempt>
@@ -56,7 +56,7 @@ TEST_F(Device, DeliversFramesWithStampAndSequence) {
   kernel_.plugIn(0, FakeCamera{});
   V4l2Device device(kernel_, kernel_.path(0));
   const auto format = device.configure(kRequest);
-  EXPECT_EQ(format.layout.format, PixelFormat::Grey);
+  EXPECT_EQ(format.layout.format, PixelFormat::kGrey);
   EXPECT_DOUBLE_EQ(format.rate_hz, 250.0);
   device.startStreaming(4);
   for (std::uint32_t expected = 0; expected < 10; ++expected) {

@@ -116,16 +116,16 @@ Kernel::Ready FakeKernel::wait(int descriptor, int timeout_ms) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       const FakeCamera* camera = cameraOf(descriptor);
-      if (camera == nullptr || camera->dequeue_error != 0) return Ready::Error;
+      if (camera == nullptr || camera->dequeue_error != 0) return Ready::kError;
       due_ns = dueAt(*camera, camera->next_sequence);
-      if (due_ns <= monotonicNow() && !camera->stalled && !camera->queued.empty()) return Ready::Frame;
+      if (due_ns <= monotonicNow() && !camera->stalled && !camera->queued.empty()) return Ready::kFrame;
     }
     // Soon enough for the next frame, and for a fault that the test makes meanwhile.
     constexpr std::int64_t kShortest_ns = 200'000, kLongest_ns = 2'000'000;
     std::this_thread::sleep_for(
         std::chrono::nanoseconds(std::clamp(due_ns - monotonicNow(), kShortest_ns, kLongest_ns)));
   } while (monotonicNow() < until_ns);
-  return Ready::No;
+  return Ready::kNo;
 }
 
 int FakeKernel::ioctl(int descriptor, unsigned long request, void* argument) {

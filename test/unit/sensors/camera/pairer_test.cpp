@@ -1,11 +1,11 @@
-#include "sensors/camera/pairer.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <random>
 #include <vector>
+
+#include "sensors/camera/left_right_pairer.h"
 
 namespace stereo_nav::camera {
 namespace {
@@ -71,8 +71,8 @@ Result run(const Stream& left, const Stream& right, int frames, std::int64_t max
            unsigned seed = 1) {
   std::mt19937 random(seed);
   std::vector<Event> events;
-  addStream(events, Side::Left, left, frames, random);
-  addStream(events, Side::Right, right, frames, random);
+  addStream(events, Side::kLeft, left, frames, random);
+  addStream(events, Side::kRight, right, frames, random);
   std::stable_sort(events.begin(), events.end(),
                    [](const Event& a, const Event& b) { return a.arrival_ns < b.arrival_ns; });
   Pairer pairer(kPeriod, max_skew);
@@ -80,18 +80,18 @@ Result run(const Stream& left, const Stream& right, int frames, std::int64_t max
   for (const auto& event : events) {
     auto pair = pairer.push(event.side, frameAt(event.time_ns, event.sequence));
     result.most_waiting =
-        std::max({result.most_waiting, pairer.waiting(Side::Left), pairer.waiting(Side::Right)});
+        std::max({result.most_waiting, pairer.waiting(Side::kLeft), pairer.waiting(Side::kRight)});
     if (!pair) continue;
     std::int64_t later_arrival_ns = 0;
     for (const auto& arrived : events) {
-      const auto sequence = arrived.side == Side::Left ? pair->left.sequence : pair->right.sequence;
+      const auto sequence = arrived.side == Side::kLeft ? pair->left.sequence : pair->right.sequence;
       if (arrived.sequence == sequence) later_arrival_ns = std::max(later_arrival_ns, arrived.arrival_ns);
     }
     result.latencies_ns.push_back(event.arrival_ns - later_arrival_ns);
     result.pairs.push_back(std::move(*pair));
   }
   result.counts = pairer.counts();
-  result.waiting = pairer.waiting(Side::Left) + pairer.waiting(Side::Right);
+  result.waiting = pairer.waiting(Side::kLeft) + pairer.waiting(Side::kRight);
   // Nothing is lost silently.
   const auto& counts = result.counts;
   EXPECT_EQ(events.size(), 2 * counts.pairs + counts.without_partner[0] + counts.without_partner[1] +
@@ -102,7 +102,7 @@ Result run(const Stream& left, const Stream& right, int frames, std::int64_t max
 /// What holds of every stream whatever happens: order, each frame once, max_skew, bounded memory.
 void expectSound(const Result& result, std::int64_t max_skew = kMaxSkew) {
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    EXPECT_LE(std::abs(result.pairs[i].skew_ns()), max_skew);
+    EXPECT_LE(std::abs(result.pairs[i].timeOffset_ns()), max_skew);
     if (i == 0) continue;
     EXPECT_GT(result.pairs[i].left.time_ns, result.pairs[i - 1].left.time_ns);
     EXPECT_GT(result.pairs[i].right.time_ns, result.pairs[i - 1].right.time_ns);
@@ -123,70 +123,70 @@ TEST(Pairer, PairsEveryFrameOfSteadyCameras) {
 
 TEST(Pairer, LetsAPairOutWhenItsLaterImageArrives) {
   Pairer pairer(kPeriod, kMaxSkew);
-  EXPECT_FALSE(pairer.push(Side::Left, frameAt(1000 * kMillisecond, 0)));
-  const auto pair = pairer.push(Side::Right, frameAt(1010 * kMillisecond, 0));
+  EXPECT_FALSE(pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0)));
+  const auto pair = pairer.push(Side::kRight, frameAt(1010 * kMillisecond, 0));
   ASSERT_TRUE(pair);
-  EXPECT_EQ(pair->skew_ns(), 10 * kMillisecond);
+  EXPECT_EQ(pair->timeOffset_ns(), 10 * kMillisecond);
 }
 
 TEST(Pairer, WaitsForANearerFrameWhereOneCanCome) {
   Pairer pairer(kPeriod, 30 * kMillisecond);
-  pairer.push(Side::Left, frameAt(1000 * kMillisecond, 0));
-  EXPECT_FALSE(pairer.push(Side::Right, frameAt(1025 * kMillisecond, 0))) << "left's next comes at 1033";
-  const auto pair = pairer.push(Side::Left, frameAt(1033 * kMillisecond, 1));
+  pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0));
+  EXPECT_FALSE(pairer.push(Side::kRight, frameAt(1025 * kMillisecond, 0))) << "left's next comes at 1033";
+  const auto pair = pairer.push(Side::kLeft, frameAt(1033 * kMillisecond, 1));
   ASSERT_TRUE(pair);
   EXPECT_EQ(pair->left.sequence, 1u);
-  EXPECT_EQ(pair->skew_ns(), -8 * kMillisecond);
+  EXPECT_EQ(pair->timeOffset_ns(), -8 * kMillisecond);
   EXPECT_EQ(pairer.counts().without_partner[0], 1u);
 }
 
 TEST(Pairer, DoesNotWaitForAFrameThatIsOverdue) {
   Pairer pairer(kPeriod, 30 * kMillisecond);
-  pairer.push(Side::Left, frameAt(1000 * kMillisecond, 0));
-  EXPECT_FALSE(pairer.push(Side::Right, frameAt(1025 * kMillisecond, 0)));
-  const auto pair = pairer.push(Side::Right, frameAt(1058 * kMillisecond, 1));
+  pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0));
+  EXPECT_FALSE(pairer.push(Side::kRight, frameAt(1025 * kMillisecond, 0)));
+  const auto pair = pairer.push(Side::kRight, frameAt(1058 * kMillisecond, 1));
   ASSERT_TRUE(pair);
-  EXPECT_EQ(pair->skew_ns(), 25 * kMillisecond);
+  EXPECT_EQ(pair->timeOffset_ns(), 25 * kMillisecond);
 }
 
 TEST(Pairer, MeasuresThePeriodThroughLostFrames) {
   Pairer pairer(10 * kMillisecond, kMaxSkew);
   for (const std::uint32_t sequence : {0u, 2u, 4u, 5u, 8u, 10u}) {
-    pairer.push(Side::Left, frameAt(1000 * kMillisecond + sequence * kPeriod, sequence));
+    pairer.push(Side::kLeft, frameAt(1000 * kMillisecond + sequence * kPeriod, sequence));
   }
   EXPECT_EQ(pairer.period_ns(), kPeriod);
 }
 
 TEST(Pairer, MeasuresThePeriodOfADriverThatDoesNotCount) {
   Pairer pairer(10 * kMillisecond, kMaxSkew);
-  for (int i = 0; i < 5; ++i) pairer.push(Side::Left, frameAt(1000 * kMillisecond + i * kPeriod, 0));
+  for (int i = 0; i < 5; ++i) pairer.push(Side::kLeft, frameAt(1000 * kMillisecond + i * kPeriod, 0));
   EXPECT_EQ(pairer.period_ns(), kPeriod);
 }
 
 TEST(Pairer, ExactlyMaxSkewIsAllowedAndNotMore) {
   for (const std::int64_t beyond : {0, 1}) {
     Pairer pairer(kPeriod, kMaxSkew);
-    pairer.push(Side::Right, frameAt(1000 * kMillisecond, 0));
-    EXPECT_EQ(pairer.push(Side::Left, frameAt(1000 * kMillisecond + kMaxSkew + beyond, 0)).has_value(),
+    pairer.push(Side::kRight, frameAt(1000 * kMillisecond, 0));
+    EXPECT_EQ(pairer.push(Side::kLeft, frameAt(1000 * kMillisecond + kMaxSkew + beyond, 0)).has_value(),
               beyond == 0);
   }
 }
 
 TEST(Pairer, AFrameThatIsNotLaterIsDroppedAndCounted) {
   Pairer pairer(kPeriod, kMaxSkew);
-  pairer.push(Side::Left, frameAt(1000 * kMillisecond, 0));
-  pairer.push(Side::Left, frameAt(1000 * kMillisecond, 1));
-  pairer.push(Side::Left, frameAt(900 * kMillisecond, 2));
+  pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0));
+  pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 1));
+  pairer.push(Side::kLeft, frameAt(900 * kMillisecond, 2));
   EXPECT_EQ(pairer.counts().out_of_order[0], 2u);
-  EXPECT_EQ(pairer.waiting(Side::Left), 1u);
+  EXPECT_EQ(pairer.waiting(Side::kLeft), 1u);
 }
 
 TEST(Pairer, RestartForgetsOneCameraOnly) {
   Pairer pairer(kPeriod, kMaxSkew);
-  pairer.push(Side::Left, frameAt(1000 * kMillisecond, 0));
-  pairer.restart(Side::Left);
+  pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0));
+  pairer.restart(Side::kLeft);
   EXPECT_EQ(pairer.counts().without_partner[0], 1u);
-  pairer.push(Side::Left, frameAt(500 * kMillisecond, 0));  // its clock may have started anew
+  pairer.push(Side::kLeft, frameAt(500 * kMillisecond, 0));  // its clock may have started anew
   EXPECT_EQ(pairer.counts().out_of_order[0], 0u);
 }
 

@@ -40,8 +40,8 @@ class StereoCameraTest : public testing::Test {
     CameraConfig camera;
     camera.name = name;
     camera.device = device;
-    camera.format = {PixelFormat::Any, 32, 16, 250.0};
-    camera.encoding = Encoding::Mono8;
+    camera.format = {PixelFormat::kAny, 32, 16, 250.0};
+    camera.encoding = Encoding::kMono8;
     camera.stall_timeout_s = 20.0;  // a busy computer is no stall
     return camera;
   }
@@ -51,7 +51,7 @@ class StereoCameraTest : public testing::Test {
   }
   bool morePairsCome() { return rig_->pairsCome(10); }
   bool rightIsRetrying() {
-    return comesTrue([this] { return rig_->right().state == CameraState::Retrying; });
+    return comesTrue([this] { return rig_->right().state == CameraState::kRetrying; });
   }
   template <class Condition>
   bool comesTrue(Condition&& condition) {

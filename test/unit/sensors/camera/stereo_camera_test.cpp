@@ -21,7 +21,7 @@ TEST_F(StereoCameraTest, PairsCarryTheDriversStampsInOrder) {
     const Frame& left = images.pair.left;
     EXPECT_EQ(left.time_ns, left.stamp_ns) << "no exposure is known";
     EXPECT_LE(left.time_ns, left.dequeued_ns);
-    EXPECT_EQ(images.pair.skew_ns(), 1'000'000);
+    EXPECT_EQ(images.pair.timeOffset_ns(), 1'000'000);
     std::uint32_t drawn = 0;
     std::memcpy(&drawn, left.image.pixels.data(), sizeof(drawn));
     EXPECT_EQ(drawn, left.sequence) << "the picture is the one of the stamp";
@@ -32,12 +32,12 @@ TEST_F(StereoCameraTest, TheLargestSkewCanBeChangedWhileItRuns) {
   kernel_.change(1, [](FakeCamera& camera) { camera.offset_ns = 1'000'000; });
   start(config());
   ASSERT_TRUE(morePairsCome());
-  rig_->camera().setMaxSkew(0.0005);
+  rig_->camera().setMaxTimeOffset(0.0005);
   EXPECT_DOUBLE_EQ(rig_->camera().status().max_skew_s, 0.0005);
   const auto aloneSoFar = [this] { return rig_->camera().status().pairing.without_partner[0]; };
   const auto alone = aloneSoFar();
   EXPECT_TRUE(comesTrue([&] { return aloneSoFar() > alone + 10; }));
-  rig_->camera().setMaxSkew(0.0015);
+  rig_->camera().setMaxTimeOffset(0.0015);
   EXPECT_TRUE(morePairsCome());
 }
 
@@ -101,7 +101,7 @@ TEST_F(StereoCameraTest, MeasuresTheSlideOfCamerasWhoseRateIsNotTheOneAskedFor) 
   faster.max_skew_s = 0.0051;
   start(faster);
   ASSERT_TRUE(rig_->pairsCome(250));  // the skew passes a whole period twice
-  EXPECT_NEAR(rig_->camera().status().skew_rate, 0.01, 0.001);
+  EXPECT_NEAR(rig_->camera().status().time_offset_rate, 0.01, 0.001);
   EXPECT_NE(rig_->log().find("runs at 100 Hz instead of 160"), std::string::npos) << rig_->log();
 }
 
@@ -112,7 +112,7 @@ TEST_F(StereoCameraTest, StampsOfAnUnknownClockAreUsedWithAWarning) {
   EXPECT_NE(rig_->log().find("does not say of which clock"), std::string::npos) << rig_->log();
   EXPECT_NE(rig_->left().clock_warning, "");
   EXPECT_EQ(rig_->right().clock_warning, "");
-  for (const auto& images : rig_->stop()) EXPECT_EQ(images.pair.skew_ns(), 0) << "by the stamps";
+  for (const auto& images : rig_->stop()) EXPECT_EQ(images.pair.timeOffset_ns(), 0) << "by the stamps";
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include "sensors/imu/angle_protocol.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <random>
 
 #include "core/angles.h"
-#include "sensors/imu/angle_framer.h"
 #include "sensors/imu/angle_gate.h"
 #include "sensors/imu/emulation/emulated_module.h"
 #include "sensors/imu/frame_decoder.h"

@@ -1,4 +1,4 @@
-#include "sensors/imu/angle_framer.h"
+#include "sensors/imu/angle_protocol.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, AngleFramer::kHeaderBytes> kHeader = {'i', 't', 's'};
 
-/// Modules count yaw either way round, 0..360 or -180..180.
+/// Modules count yaw in either direction, from 0 to 360 or from -180 to 180.
 constexpr double kMaxYaw_deg = 360.5;
 constexpr double kMaxTilt_deg = 180.5;
 
@@ -43,7 +43,7 @@ std::optional<AngleCandidate> AngleFramer::push(std::uint8_t byte) {
   }
 }
 
-/// False while the bytes after the reported frame have not all come.
+/// Returns false while the bytes after the reported frame have not all come.
 bool AngleFramer::judgeSuccessor() {
   if (size_ < kFrameBytes + kHeaderBytes) return false;
   front_reported_ = false;

@@ -12,17 +12,17 @@ namespace stereo_nav::imu {
 /// The thesis names the three floats yaw, pitch, roll in its program and roll, pitch, yaw in its text.
 enum class AngleOrder { kYawPitchRoll, kRollPitchYaw };
 
-/// Fifteen bytes that look like a frame; whether they are one is for AngleGate to say.
+/// Fifteen bytes that look like a frame; AngleGate decides whether they are one.
 struct AngleCandidate {
   ModuleAngles angles;
   std::uint64_t first_byte = 0;  ///< position in the stream, from 0
-  bool follows = false;          ///< the previous candidate ended right before this one
+  bool follows = false;          ///< the previous candidate ended directly before this one
 };
 
 /// Since the start of the stream.
 struct AngleFramerCounters {
   std::uint64_t bytes = 0;
-  std::uint64_t bytes_skipped = 0;  ///< passed over while looking for a header
+  std::uint64_t bytes_skipped = 0;  ///< skipped while looking for a header
   std::uint64_t impossible = 0;     ///< header found, but NaN, infinity or an angle no module sends
 };
 
@@ -43,7 +43,7 @@ class AngleFramer {
 
   explicit AngleFramer(AngleOrder order) : order_(order) {}
 
-  /// A candidate is returned with its last byte.
+  /// Returns a candidate with its last byte.
   std::optional<AngleCandidate> push(std::uint8_t byte);
   /// Forgets a partly received frame, e.g. when the port was opened again.
   void reset();
@@ -59,7 +59,8 @@ class AngleFramer {
   AngleOrder order_;
   std::array<std::uint8_t, kFrameBytes + kHeaderBytes> buffer_{};
   std::size_t size_ = 0;
-  bool front_reported_ = false;  ///< the first 15 bytes were returned and wait for their successor's header
+  bool front_reported_ =
+      false;  ///< the first 15 bytes were returned; their successor's header has not come yet
   std::optional<std::uint64_t> last_first_byte_;
   AngleFramerCounters counters_;
 };

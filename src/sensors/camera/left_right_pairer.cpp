@@ -1,4 +1,4 @@
-#include "sensors/camera/pairer.h"
+#include "sensors/camera/left_right_pairer.h"
 
 #include <cstdlib>
 #include <utility>
@@ -10,9 +10,10 @@ namespace stereo_nav::camera {
 namespace {
 
 constexpr std::size_t kMostIntervals = 15;
-/// Frames; a counter that jumps further, or does not move, does not count frames.
+/// In frames. A counter that jumps further, or does not move, does not count frames.
 constexpr std::uint32_t kLongestGap = 1000;
-/// Frames of one camera that wait for the other one. When the other one stalls, the oldest goes.
+/// Number of frames of one camera that may wait for the other one. When the other one stalls, the oldest
+/// frame is dropped.
 constexpr std::size_t kMostWaiting = 4;
 
 }  // namespace
@@ -23,15 +24,15 @@ void FramePeriod::add(std::int64_t interval_ns, std::uint32_t frames) {
   if (latest_.size() > kMostIntervals) latest_.pop_front();
 }
 
-std::int64_t FramePeriod::get_ns() const {
+std::int64_t FramePeriod::median_ns() const {
   constexpr std::size_t kEnough = 3;
   if (latest_.size() < kEnough) return nominal_ns_;
   std::vector<std::int64_t> intervals(latest_.begin(), latest_.end());
   return upperMedian(intervals);
 }
 
-Pairer::Pairer(std::int64_t nominal_period_ns, std::int64_t max_skew_ns)
-    : max_skew_ns_(max_skew_ns), lanes_{Lane(nominal_period_ns), Lane(nominal_period_ns)} {}
+Pairer::Pairer(std::int64_t nominal_period_ns, std::int64_t max_time_offset_ns)
+    : max_time_offset_ns_(max_time_offset_ns), lanes_{Lane(nominal_period_ns), Lane(nominal_period_ns)} {}
 
 std::optional<FramePair> Pairer::push(Side side, Frame frame) {
   Lane& own = lane(side);
@@ -48,13 +49,13 @@ std::optional<FramePair> Pairer::push(Side side, Frame frame) {
 
   // A frame can complete one pair only: every pair needs a new frame of each side, and before this call none
   // was possible.
-  while (!lane(Side::Left).frames.empty() && !lane(Side::Right).frames.empty()) {
+  while (!lane(Side::kLeft).frames.empty() && !lane(Side::kRight).frames.empty()) {
     const bool left_first =
-        lane(Side::Left).frames.front().time_ns <= lane(Side::Right).frames.front().time_ns;
-    const Side earlier = left_first ? Side::Left : Side::Right;
+        lane(Side::kLeft).frames.front().time_ns <= lane(Side::kRight).frames.front().time_ns;
+    const Side earlier = left_first ? Side::kLeft : Side::kRight;
     const Verdict verdict = judge(lane(earlier), lane(otherSide(earlier)));
-    if (verdict == Verdict::Pair) return takePair();
-    if (verdict == Verdict::Wait) break;
+    if (verdict == Verdict::kPair) return takePair();
+    if (verdict == Verdict::kWait) break;
     dropOldest(earlier);
   }
   if (own.frames.size() > kMostWaiting) dropOldest(side);
@@ -64,15 +65,16 @@ std::optional<FramePair> Pairer::push(Side side, Frame frame) {
 Pairer::Verdict Pairer::judge(const Lane& earlier, const Lane& later) const {
   const std::int64_t early = earlier.frames.front().time_ns;
   const std::int64_t late = later.frames.front().time_ns;
-  const std::int64_t skew = late - early;
-  if (skew > max_skew_ns_) return Verdict::DropEarlier;  // all others of that camera come later still
+  const std::int64_t offset = late - early;
+  if (offset > max_time_offset_ns_)
+    return Verdict::kDropEarlier;  // all later frames of the other camera are even further away
   if (earlier.frames.size() > 1) {
     const std::int64_t next = earlier.frames[1].time_ns;
-    return std::abs(next - late) < skew ? Verdict::DropEarlier : Verdict::Pair;
+    return std::abs(next - late) < offset ? Verdict::kDropEarlier : Verdict::kPair;
   }
-  const bool next_cannot_be_nearer = 2 * skew <= earlier.period.get_ns();
+  const bool next_cannot_be_nearer = 2 * offset <= earlier.period.median_ns();
   const bool next_is_overdue = later.frames.size() > 1;
-  return next_cannot_be_nearer || next_is_overdue ? Verdict::Pair : Verdict::Wait;
+  return next_cannot_be_nearer || next_is_overdue ? Verdict::kPair : Verdict::kWait;
 }
 
 void Pairer::restart(Side side) {
@@ -87,9 +89,9 @@ void Pairer::dropOldest(Side side) {
 }
 
 FramePair Pairer::takePair() {
-  FramePair pair{std::move(lane(Side::Left).frames.front()), std::move(lane(Side::Right).frames.front())};
-  lane(Side::Left).frames.pop_front();
-  lane(Side::Right).frames.pop_front();
+  FramePair pair{std::move(lane(Side::kLeft).frames.front()), std::move(lane(Side::kRight).frames.front())};
+  lane(Side::kLeft).frames.pop_front();
+  lane(Side::kRight).frames.pop_front();
   ++counts_.pairs;
   return pair;
 }
