@@ -17,7 +17,7 @@ command -v clang++ >/dev/null || {
 mkdir -p "$build"
 
 sources=("$root"/test/fuzz/imu_fuzz_main.cpp "$root"/test/fuzz/imu_decoder_fuzz.cpp)
-for name in angle_framer angle_gate frame_decoder module_angles raw_protocol; do sources+=("$root/src/sensors/imu/$name.cpp"); done
+for name in angle_protocol angle_gate frame_decoder module_angles raw_protocol; do sources+=("$root/src/sensors/imu/$name.cpp"); done
 includes=(-I"$root/include" -iquote "$root/src" -I"$root/test" -isystem "$(pkg-config --variable=prefix eigen3)/include/eigen3")
 
 for protocol in angles:kAngles raw:kRaw; do

@@ -35,14 +35,14 @@ TEST(PlanarMotion, AdjointCarriesASmallMotionOver) {
 }
 
 TEST(PlanarMotion, LeftJacobianMatchesNumericDifferences) {
-  constexpr double kStep = 1e-6;
+  constexpr double kDifference = 1e-6;
   for (const Eigen::Vector3d& twist : kTwists) {
     const Eigen::Isometry2d T_inverse = expPlanar(twist).inverse();
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d e = kStep * Eigen::Vector3d::Unit(k);
+      const Eigen::Vector3d e = kDifference * Eigen::Vector3d::Unit(k);
       const Eigen::Vector3d numeric =
           (logPlanar(expPlanar(twist + e) * T_inverse) - logPlanar(expPlanar(twist - e) * T_inverse)) /
-          (2.0 * kStep);
+          (2.0 * kDifference);
       EXPECT_LT((numeric - leftJacobianPlanar(twist).col(k)).norm(), 1e-8) << twist.transpose() << ", " << k;
     }
   }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kPeriod_s = 0.1;
 
-Vector6d someTwist() {
+Vector6d steadyTwist() {
   Vector6d twist;
   twist << 0.05, -0.02, -0.8, 0.02, 0.3, -0.1;
   return twist;
@@ -42,13 +42,13 @@ class MotionModelTest : public ::testing::Test {
 TEST_F(MotionModelTest, PredictsThatTheVelocityIsKept) {
   model.start({0.0, 0.0}, Eigen::Isometry3d::Identity());
   EXPECT_FALSE(model.prior({kPeriod_s, kPeriod_s}).predictsMotion());
-  step(1, someTwist());
+  step(1, steadyTwist());
   const MotionPrior prior = model.prior({2 * kPeriod_s, 2 * kPeriod_s + 0.03});
   EXPECT_TRUE(prior.predictsMotion());
   const vision::StereoView predicted = prior.predictedView();
-  EXPECT_TRUE(predicted.T_camera_world.isApprox(expMotion(2.0 * kPeriod_s * someTwist()), 1e-9));
-  EXPECT_TRUE(predicted.T_late_camera.isApprox(expMotion(0.03 * someTwist()), 1e-9));
-  EXPECT_TRUE(prior.twistAt(predicted).isApprox(someTwist(), 1e-9));
+  EXPECT_TRUE(predicted.T_camera_world.isApprox(expMotion(2.0 * kPeriod_s * steadyTwist()), 1e-9));
+  EXPECT_TRUE(predicted.T_late_camera.isApprox(expMotion(0.03 * steadyTwist()), 1e-9));
+  EXPECT_TRUE(prior.twistAt(predicted).isApprox(steadyTwist(), 1e-9));
 }
 
 TEST_F(MotionModelTest, UncertaintyGrowsWithTimeAndHalvesWithAKnownVelocity) {
@@ -56,7 +56,7 @@ TEST_F(MotionModelTest, UncertaintyGrowsWithTimeAndHalvesWithAKnownVelocity) {
   const MotionPrior unknown = model.prior({0.04, 0.04});
   EXPECT_NEAR(unknown.twist_sigma[0], std::sqrt(params.acceleration_density * 0.04), 1e-12);
   EXPECT_NEAR(unknown.twist_sigma[5], std::sqrt(params.angular_acceleration_density * 0.04), 1e-12);
-  step(1, someTwist());
+  step(1, steadyTwist());
   const MotionPrior known = model.prior({kPeriod_s + 0.04, kPeriod_s + 0.04});
   EXPECT_NEAR(known.twist_sigma[0], 0.5 * unknown.twist_sigma[0], 1e-12);
 }
@@ -79,7 +79,7 @@ TEST_F(MotionModelTest, TheImuTellsTheRotationAndWhereANewMapBegins) {
 }
 
 TEST_F(MotionModelTest, WithoutImuANewMapBeginsWhereTheLastOneEnded) {
-  const Eigen::Isometry3d T_camera_world = expMotion(someTwist());
+  const Eigen::Isometry3d T_camera_world = expMotion(steadyTwist());
   model.start({0.0, 0.0}, T_camera_world);
   EXPECT_TRUE(model.turnedSincePrevious({1.0, 1.0}).isApprox(T_camera_world));
 }
@@ -105,7 +105,7 @@ TEST_F(MotionModelTest, KnowsWhichMotionsNoRobotCouldBegin) {
 TEST_F(MotionModelTest, ForgetsAVelocityOnce) {
   model.start({0.0, 0.0}, Eigen::Isometry3d::Identity());
   EXPECT_FALSE(model.forgetVelocity());
-  step(1, someTwist());
+  step(1, steadyTwist());
   EXPECT_TRUE(model.forgetVelocity());
   EXPECT_FALSE(model.forgetVelocity());
   EXPECT_FALSE(model.prior({0.2, 0.2}).predictsMotion());
@@ -122,15 +122,15 @@ TEST_F(MotionModelTest, AFirstFrameWithTimeOffsetMayMoveAtAnySpeed) {
 TEST_F(MotionModelTest, InterpolatesTheMotionBetweenTheStampsOfThePreviousFrame) {
   constexpr double kOffset_s = 0.04;
   model.start({0.0, kOffset_s}, Eigen::Isometry3d::Identity());
-  step(1, someTwist(), kOffset_s);
+  step(1, steadyTwist(), kOffset_s);
   const FrameTimes times(2 * kPeriod_s, 2 * kPeriod_s + kOffset_s);
   WindowFrame previous;
   previous.view = model.previousView();
   previous.late_sigma.setConstant(7.0);
   vision::StereoView current;
-  current.T_camera_world = expMotion(someTwist() * kPeriod_s) * previous.view.T_camera_world;
+  current.T_camera_world = expMotion(steadyTwist() * kPeriod_s) * previous.view.T_camera_world;
   model.smoothTimeOffset(times, current, previous);
-  EXPECT_TRUE(previous.T_late_expected.isApprox(expMotion(kOffset_s * someTwist()), 1e-9));
+  EXPECT_TRUE(previous.T_late_expected.isApprox(expMotion(kOffset_s * steadyTwist()), 1e-9));
   const double spread = std::sqrt(kPeriod_s * kPeriod_s * kPeriod_s / 48.0);
   EXPECT_NEAR(previous.late_sigma[0], std::sqrt(params.acceleration_density) * spread, 1e-12);
   EXPECT_NEAR(previous.late_sigma[3], std::sqrt(params.angular_acceleration_density) * spread, 1e-12);
@@ -138,11 +138,11 @@ TEST_F(MotionModelTest, InterpolatesTheMotionBetweenTheStampsOfThePreviousFrame)
 
 TEST_F(MotionModelTest, AFrameIsExpectedToMoveOnBetweenItsStamps) {
   model.start({0.0, 0.0}, Eigen::Isometry3d::Identity());
-  step(1, someTwist());
+  step(1, steadyTwist());
   const MotionPrior prior = model.prior({2 * kPeriod_s, 2 * kPeriod_s - 0.05});
   const WindowFrame frame = MotionModel::windowFrame(prior.predictedView(), prior);
   EXPECT_TRUE(frame.has_time_offset);
-  EXPECT_TRUE(frame.T_late_expected.isApprox(expMotion(-0.05 * someTwist()), 1e-9));
+  EXPECT_TRUE(frame.T_late_expected.isApprox(expMotion(-0.05 * steadyTwist()), 1e-9));
   EXPECT_TRUE(frame.late_sigma.isApprox(0.05 * prior.twist_sigma, 1e-9));
 }
 
