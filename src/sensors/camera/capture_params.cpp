@@ -22,16 +22,17 @@ void CaptureParams::describe(ParameterVisitor& visitor) {
             "encoding of the published images; mono8 needs about half the time");
   visitor.integer("buffers", buffers, {2, 32}, "", "image buffers asked from each driver");
   visitor.real("stall_timeout_s", stall_timeout_s, {0.1, 60.0}, "s",
-               "a camera that sends nothing for so long is opened anew");
-  visitor.real("max_skew_s", max_skew_s, {0.0, 1.0}, "s",
-               "left and right images further apart in time are no pair; half the frame period loses none",
-               Change::kLive);
+               "a camera that sends nothing for so long is opened again");
+  visitor.real(
+      "max_skew_s", max_skew_s, {0.0, 1.0}, "s",
+      "left and right images further apart in time are not paired; half the frame period loses no image",
+      Change::kLive);
   visitEnum(visitor, "stamps", stamps, {{"common", Stamps::kCommon}, {"true", Stamps::kTrue}},
-            "common: both images of a pair carry the left one's time; true: each its own");
+            "common: both images of a pair carry the time of the left one; true: each image carries its own");
   visitor.real("exposure_ms", exposure_ms, {-1.0, 1000.0}, "ms",
-               "exposure time of both cameras; 0: automatic, -1: as the camera is set", Change::kLive);
-  visitor.integer("gain", gain, {-1, 10000}, "",
-                  "gain of both cameras in the driver's units; -1: as the camera is set", Change::kLive);
+               "exposure time of both cameras; 0: automatic, -1: unchanged", Change::kLive);
+  visitor.integer("gain", gain, {-1, 10000}, "", "gain of both cameras in the driver's units; -1: unchanged",
+                  Change::kLive);
   visitor.flag("match_exposure", match_exposure,
                "the right camera follows the exposure time and gain that the left one reports");
   visitor.real("rolling_shutter_ms", rolling_shutter_ms, {0.0, 200.0}, "ms",
