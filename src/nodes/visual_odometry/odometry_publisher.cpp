@@ -83,11 +83,7 @@ void OdometryPublisher::publishOdometry(const ros_io::FrameMessages& frame,
   odometry_publisher_.publish(odometry);
   publishPath(odometry->header, odometry->pose.pose);
 
-  if (!params_.publish_tf) return;
-  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(base.T_odom_base);
-  transform.header = odometry->header;
-  transform.child_frame_id = params_.base_frame;
-  tf_.sendTransform(transform);
+  if (params_.publish_tf) transform_publisher_.publish(*odometry);
 }
 
 void OdometryPublisher::publishPath(const std_msgs::Header& header, const geometry_msgs::Pose& pose) {

@@ -4,11 +4,11 @@
 #include <image_transport/image_transport.h>
 #include <nav_msgs/Path.h>
 #include <ros/ros.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include <cstdint>
 #include <string>
 
+#include "nodes/visual_odometry/odom_transform_publisher.h"
 #include "nodes/visual_odometry/odometry_session.h"
 #include "stereo_nav/VoStatus.h"
 
@@ -46,7 +46,7 @@ class OdometryPublisher {
   ros::Publisher features_publisher_;
   image_transport::ImageTransport image_transport_;
   image_transport::Publisher debug_publisher_;
-  tf2_ros::TransformBroadcaster tf_;
+  OdomTransformPublisher transform_publisher_;
   nav_msgs::Path path_;
 };
 

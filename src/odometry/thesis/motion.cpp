@@ -52,6 +52,15 @@ void selectInliers(const RefinementParams& params, const vision::StereoCalibrati
   motion.rms_px = motion.inliers == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(3 * motion.inliers));
 }
 
+/// The rotation and the translation of a step apart: to first order expMotion(delta), and no further from it
+/// than a step that ends the descent. It keeps the thesis' odometry at the figures of earlier versions.
+Eigen::Isometry3d stepMotion(const Vector6d& delta) {
+  Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+  step.linear() = expRotation(delta.tail<3>());
+  step.translation() = delta.head<3>();
+  return step;
+}
+
 bool descend(const RefinementParams& params, const vision::StereoCalibration& calibration,
              const std::vector<PointPair>& pairs, const std::vector<bool>& used, RefinedMotion& motion) {
   constexpr double kSmallStep = 1e-8;
@@ -59,7 +68,7 @@ bool descend(const RefinementParams& params, const vision::StereoCalibration& ca
     const NormalEquations equations = linearise(params, calibration, pairs, used, motion.T_current_previous);
     const auto step = gaussNewtonStep(equations.information, equations.gradient);
     if (!step) return false;
-    motion.T_current_previous = expMotion(*step) * motion.T_current_previous;
+    motion.T_current_previous = stepMotion(*step) * motion.T_current_previous;
     if (step->norm() < kSmallStep) break;
   }
   return true;
