@@ -109,7 +109,7 @@ TEST_F(StereoCameraTest, StampsOfAnUnknownClockAreUsedWithAWarning) {
   kernel_.change(0, [](FakeCamera& camera) { camera.stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_COPY; });
   start(config());
   ASSERT_TRUE(morePairsCome());
-  EXPECT_NE(rig_->log().find("does not say of which clock"), std::string::npos) << rig_->log();
+  EXPECT_NE(rig_->log().find("does not say to which clock"), std::string::npos) << rig_->log();
   EXPECT_NE(rig_->left().clock_warning, "");
   EXPECT_EQ(rig_->right().clock_warning, "");
   for (const auto& images : rig_->stop()) EXPECT_EQ(images.pair.timeOffset_ns(), 0) << "by the stamps";
