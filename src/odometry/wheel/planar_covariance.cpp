@@ -1,0 +1,50 @@
+#include "odometry/wheel/planar_covariance.h"
+
+#include "core/planar_motion.h"
+
+namespace stereo_nav::odometry {
+
+PlanarCovariance::PlanarCovariance(std::size_t wheels, const ConstantErrors& errors) : errors_(errors) {
+  with_reading_.setZero(3, static_cast<Eigen::Index>(wheels));
+  scale_gain_ = with_reading_;
+}
+
+void PlanarCovariance::reset(const Eigen::Matrix3d& covariance) {
+  random_ = covariance;
+  with_reading_.setZero();
+  scale_gain_.setZero();
+  drift_gain_.setZero();
+}
+
+void PlanarCovariance::append(const WheelInterval& interval, const IntervalMotion& motion, double duration_s,
+                              const std::vector<double>& slip_variance_m2,
+                              const std::vector<double>& reading_variance_m2) {
+  // e_end = F e_start + J d, with J the right Jacobian of exp at the motion (Sola et al. 2018, eq. 67 and
+  // 83).
+  const Eigen::Matrix3d F = adjointPlanar(expPlanar(-motion.motion));
+  const Eigen::Matrix3d J = leftJacobianPlanar(-motion.motion);
+  const WheelColumns gain = J * motion.gain;
+  const Eigen::Vector3d yaw_gain = J * motion.yaw_gain;
+
+  random_ = (F * random_ * F.transpose()).eval();
+  random_ += J * motion.sideways_covariance * J.transpose();
+  if (interval.yaw_rad) random_ += interval.yaw_variance_rad2 * yaw_gain * yaw_gain.transpose();
+  for (Eigen::Index i = 0; i < gain.cols(); ++i) {
+    const auto wheel = static_cast<std::size_t>(i);
+    const Eigen::Vector3d g = gain.col(i);
+    // The distance is the new reading minus the last one, whose error the pose may hold already.
+    const Eigen::Matrix3d shared = F * with_reading_.col(i) * g.transpose();
+    random_ += (slip_variance_m2[wheel] + 2.0 * reading_variance_m2[wheel]) * g * g.transpose() - shared -
+               shared.transpose();
+    with_reading_.col(i) = reading_variance_m2[wheel] * g;
+    scale_gain_.col(i) = (F * scale_gain_.col(i)).eval() + interval.distance_m[wheel] * g;
+  }
+  drift_gain_ = (F * drift_gain_).eval() + duration_s * yaw_gain;
+}
+
+Eigen::Matrix3d PlanarCovariance::covariance() const {
+  return random_ + errors_.scale * errors_.scale * scale_gain_ * scale_gain_.transpose() +
+         errors_.yaw_drift_rad_per_s * errors_.yaw_drift_rad_per_s * drift_gain_ * drift_gain_.transpose();
+}
+
+}  // namespace stereo_nav::odometry

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "kinematics/drive_params.h"
+
+namespace stereo_nav::odometry {
+
+/// Of the wheel odometry: the drive, its encoders' counters and what is uncertain.
+struct WheelOdometryParams {
+  kinematics::DriveParams drive;
+  int counter_bits = 32;
+  double pulse_sigma = 0.3;
+  double slip_sigma_m = 0.003;
+  double scale_sigma = 0.005;
+  double yaw_sigma_rad = 0.0005;
+  double yaw_drift_sigma_rad_per_s = 0.0005;
+  double speed_window_s = 0.1;
+  bool as_published = false;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+}  // namespace stereo_nav::odometry
