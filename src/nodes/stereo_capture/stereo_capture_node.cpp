@@ -59,8 +59,7 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
   if (ros::Time::isSimTime()) {
     ROS_ERROR(
         "/use_sim_time is set, but live cameras stamp with this computer's clock: the stamps will not fit. "
-        "Use "
-        "`rosparam set /use_sim_time false` before starting any node");
+        "Use `rosparam set /use_sim_time false` before starting any node");
   }
   CaptureDiagnostics::Sources sources;
   sources.status = [this] { return camera_->status(); };

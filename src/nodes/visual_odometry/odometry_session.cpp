@@ -163,9 +163,8 @@ void OdometrySession::level(double time_s, SessionOutput& output) {
   if (!R_odom_base) {
     output.announcements.push_back(
         "initial_attitude is gravity, but the IMU gives neither attitude nor acceleration before the first "
-        "frame; the "
-        "odometry frame is the base's own, not levelled. Is the IMU running, and sampled at the image's "
-        "time?");
+        "frame; the odometry frame is the base's own, not levelled. Is the IMU running, and sampled at the "
+        "image's time?");
     return;
   }
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
@@ -202,10 +201,8 @@ void OdometrySession::checkCameraOrder(SessionOutput& output) {
   if (camera_order_->verdict() != vision::CameraOrderCheck::Verdict::kSwapped) return;
   output.warnings["camera_order"] =
       "left and right images are swapped: most corners of the left image lie further right in the right "
-      "image "
-      "(negative disparity), which no rectified pair in the right order shows; depth and odometry are wrong. "
-      "Exchange "
-      "the two cameras' device numbers (left_device, right_device), plugs or topics";
+      "image (negative disparity), which no rectified pair in the right order shows; depth and odometry are "
+      "wrong. Exchange the two cameras' device numbers (left_device, right_device), plugs or topics";
 }
 
 }  // namespace stereo_nav::nodes
