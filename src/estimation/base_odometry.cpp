@@ -48,7 +48,7 @@ void BaseOdometry::start(const Eigen::Isometry3d& T_odom_base, const Matrix6d& p
 
 void BaseOdometry::setPose(const Eigen::Isometry3d& T_odom_base, const Matrix6d& pose_covariance) {
   T_odom_start_ = T_odom_base * T_start_base_.inverse();
-  // Never exactly zero: filters invert it.
+  // The covariance is never exactly zero, since filters invert it.
   const Matrix6d at_least =
       pose_covariance + diagonal(params_.min_translation_sigma_m, params_.min_rotation_sigma_rad);
   covariance_base_ = turned(T_odom_base.linear().transpose(), at_least);
@@ -73,7 +73,7 @@ void BaseOdometry::addMotion(const odometry::FrameResult& result, double interva
   const Matrix6d carry = adjoint(motion.inverse());
   covariance_base_ = carry * covariance_base_ * carry.transpose() + covariance;
 
-  // After lost frames the motion may span more than the last interval: its speed is unknown.
+  // After lost frames the motion may span more than the last interval, so that its speed is unknown.
   const bool known = result.state != odometry::State::kLost && measured_from_previous_frame;
   estimate_.twist = known ? Vector6d(logMotion(motion) / interval_s) : Vector6d::Zero();
   estimate_.twist_covariance = known ? Matrix6d(covariance / (interval_s * interval_s))
