@@ -146,7 +146,7 @@ cv::Mat toDisparityMap(const stereo_msgs::DisparityImage& message,
          << calibration.width << "x" << calibration.height << " '32FC1'";
     throw InputError(text.str());
   }
-  // The Mat only reads; OpenCV has no constructor for constant data.
+  // The Mat is only read; OpenCV has no constructor for constant data.
   const cv::Mat shared(static_cast<int>(image.height), static_cast<int>(image.width), CV_32FC1,
                        const_cast<unsigned char*>(image.data.data()), image.step);
   cv::Mat map = shared.clone();
