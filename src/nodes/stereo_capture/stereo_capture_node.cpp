@@ -12,7 +12,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// Names in the private namespace that belong to others.
+/// Names in the private namespace that belong to libraries.
 const std::set<std::string> kForeignParameters = {"disparity_config", "image_transport", "num_worker_threads",
                                                   "diagnostic_period"};
 
@@ -95,7 +95,7 @@ void StereoCaptureNode::publish(camera::StereoImages images) {
   const ros::Time left_time = toRosTime(clock_.toRos(left.time_ns));
   const ros::Time right_time = toRosTime(clock_.toRos(right.time_ns));
   const bool common = params_.stamps == camera::CaptureParams::Stamps::kCommon;
-  // First what says how the images belong together: then nobody has to wait for it.
+  // camera/sync, which relates the images, is published first, so that no subscriber has to wait for it.
   publishSync(images, left_time, right_time);
   left_publisher_.publish(left, left_time);
   right_publisher_.publish(right, common ? left_time : right_time);
