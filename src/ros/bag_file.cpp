@@ -9,7 +9,8 @@
 namespace stereo_nav::ros_io {
 namespace {
 
-/// Keeps a bag that cannot be closed in memory until the process ends; see ~BagFile().
+/// Keeps a bag that cannot be closed until the process ends, since its destructor must not run; see
+/// ~BagFile().
 void giveUp(std::unique_ptr<rosbag::Bag> bag) {
   static auto* given_up = new std::vector<rosbag::Bag*>;  // never destroyed: that would destroy the bags, too
   given_up->push_back(bag.release());

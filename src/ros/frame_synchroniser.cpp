@@ -93,8 +93,7 @@ FrameSynchroniser::Match FrameSynchroniser::matchRight(const ros::Time& left_sta
 FrameSynchroniser::Match FrameSynchroniser::matchNearestRight(const ros::Time& left_stamp,
                                                               FrameMessages& frame) const {
   const decltype(rights_)::Item* nearest = nullptr;
-  double nearest_skew_s =
-      kClockJump_s;  // beyond this, the stamps belong to different epochs of a clock that jumped
+  double nearest_skew_s = kClockJump_s;  // stamps further apart are from before and after a clock's jump
   bool later_seen = false;
   for (const auto& item : rights_.items()) {
     const double skew_s = (item.stamp - left_stamp).toSec();

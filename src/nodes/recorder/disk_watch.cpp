@@ -59,8 +59,7 @@ std::string DiskWatch::text() const {
     case State::kLow:
       return fmt::format(
           "the disk is full in {:.1f} min at {:.1f} MB/s ({:.1f} GB free): end the recording soon, delete "
-          "old "
-          "ones, or record mono8 images",
+          "old ones, or record mono8 images",
           *secondsLeft() / 60.0, rate_mb_s, free_gb);
     case State::kGood:
       break;

@@ -17,8 +17,8 @@ using Connection = std::pair<std::string, std::string>;  // topic, subscribing n
 using NodesByTopic = std::map<std::string, std::vector<std::string>>;
 
 constexpr double kPoll_s = 0.1;
-constexpr int kSteadyPolls =
-    5;  // number of equal observations of the graph: lazy nodelets subscribe one after the other
+/// The graph must be unchanged in this many observations: lazy nodelets subscribe one after the other.
+constexpr int kSteadyPolls = 5;
 
 NodesByTopic readNodes(XmlRpc::XmlRpcValue& list) {
   NodesByTopic nodes;

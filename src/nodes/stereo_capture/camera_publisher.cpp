@@ -49,8 +49,7 @@ std::string CameraPublisher::calibrationWarning() const {
   return name_ + " camera: " + url_ +
          " is the example that comes with the package, for the thesis' own camera: with any other camera it "
          "gives wrong distances, and the calibrator's COMMIT overwrites it. Remove `calibration` from the "
-         "rig "
-         "file, or name a file of your own there, and calibrate (docs/calibration.md)";
+         "rig file, or name a file of your own there, and calibrate (docs/calibration.md)";
 }
 
 std::string CameraPublisher::urlText() {

@@ -12,7 +12,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// Names in the private namespace that belong to libraries.
+/// Names in the private namespace that are read elsewhere.
 const std::set<std::string> kForeignParameters = {"disparity_config", "image_transport", "num_worker_threads",
                                                   "diagnostic_period"};
 

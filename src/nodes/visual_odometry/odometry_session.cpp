@@ -164,8 +164,7 @@ void OdometrySession::level(double time_s, SessionOutput& output) {
     output.announcements.push_back(
         "initial_attitude is gravity, but the IMU gives neither attitude nor acceleration before the first "
         "frame; the odometry frame is that of the base at the start, not levelled. Is the IMU running, and "
-        "sampled at the "
-        "image's time?");
+        "sampled at the image's time?");
     return;
   }
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
@@ -203,8 +202,8 @@ void OdometrySession::checkCameraOrder(SessionOutput& output) {
   output.warnings["camera_order"] =
       "left and right images are swapped: most corners of the left image lie further right in the right "
       "image (negative disparity), which is impossible in a correctly ordered rectified pair; depth and "
-      "odometry are "
-      "wrong. Exchange the two cameras' device numbers (left_device, right_device), plugs or topics";
+      "odometry are wrong. Exchange the two cameras' device numbers (left_device, right_device), plugs or "
+      "topics";
 }
 
 }  // namespace stereo_nav::nodes

@@ -10,7 +10,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// Names in the private namespace that belong to libraries.
+/// Names in the private namespace that are read elsewhere.
 const std::set<std::string> kForeignParameters = {"vo", "image_transport", "diagnostic_period"};
 
 constexpr double kTimerPeriod_s = 0.25;
