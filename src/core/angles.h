@@ -8,12 +8,12 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadPerDeg = kPi / 180.0;
 constexpr double kDegPerRad = 180.0 / kPi;
 
-/// The same direction within [-180, 180] degrees.
+/// Returns the same direction as an angle within [-180, 180] degrees.
 inline double wrapDegrees(double angle_deg) {
   return std::remainder(angle_deg, 360.0);
 }
 
-/// The same direction within [-pi, pi] rad.
+/// Returns the same direction as an angle within [-pi, pi] rad.
 inline double wrapRadians(double angle_rad) {
   return std::remainder(angle_rad, 2.0 * kPi);
 }

@@ -4,12 +4,12 @@
 
 namespace stereo_nav {
 
-/// A file that appears under its name only when it is complete. Its contents go to `temporaryPath()` in the
-/// same folder; commit() renames it; without commit() the destructor removes it.
+/// A file that appears under its name only when it is complete. Its content is written to `temporaryPath()`
+/// in the same folder, and commit() renames that file. Without commit() the destructor removes it.
 class AtomicFile {
  public:
-  /// Creates the temporary file, and the folder if need be. Throws InputError when either cannot be
-  /// written.
+  /// Creates the temporary file, and its folder where that does not exist. Throws InputError when either
+  /// cannot be created.
   explicit AtomicFile(std::string path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -24,7 +24,7 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// Replaces the file by one with this content, or leaves it untouched. Throws InputError.
+/// Replaces the file by one with this content. On failure throws InputError and leaves the file untouched.
 void writeFileAtomically(const std::string& path, const std::string& content);
 
 }  // namespace stereo_nav

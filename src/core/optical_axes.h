@@ -4,7 +4,7 @@
 
 namespace stereo_nav {
 
-/// R_body_optical: takes coordinates of the optical axes (x right, y down, z forward) into those of a body
+/// R_body_optical takes coordinates in the optical axes (x right, y down, z forward) into those of a body
 /// that looks along its x axis (x forward, y left, z up; REP-103).
 inline Eigen::Matrix3d opticalToBody() {
   Eigen::Matrix3d R_body_optical;

@@ -197,7 +197,7 @@ std::string readTextFile(const std::string& path) {
   std::ostringstream text;
   text << file.rdbuf();
   if (file && !text.bad()) return text.str();
-  // roslaunch starts nodes in ROS_HOME, not in the folder that it was called from.
+  // roslaunch starts nodes in ROS_HOME, not in the folder in which it was called.
   const std::string where =
       std::filesystem::path(path).is_relative()
           ? " in " + std::filesystem::current_path().string() + " (launch files want absolute paths)"

@@ -30,7 +30,7 @@ void refuseUnknownSections(const YAML::Node& rig, const std::string& source) {
   }
 }
 
-/// Where a node's text begins in the file.
+/// Position in the file at which a node's text begins.
 std::size_t positionOf(const std::string& text, const YAML::Mark& mark) {
   std::size_t line_start = 0;
   for (int line = 0; line < mark.line; ++line) line_start = text.find('\n', line_start) + 1;
@@ -111,7 +111,7 @@ Mounting RigFile::mounting() const {
   return mounting;
 }
 
-/// `mounting/sensor/name` of the file, which must be a number.
+/// Returns `mounting/sensor/name` of the file, which must be a number.
 YAML::Node RigFile::numberNode(const std::string& sensor, const std::string& name) const {
   const std::string full_name = "mounting/" + sensor + "/" + name;
   const std::string expected =

@@ -23,18 +23,19 @@ struct SensorMounting {
 
   /// Takes coordinates of the sensor's body (x forward, y left, z up) into `base_link`.
   Eigen::Isometry3d T_base_sensor() const;
-  /// Of a camera, which looks along the x axis of its body: takes coordinates of its optical frame (x right,
+  /// For a camera, which looks along the x axis of its body: takes coordinates of its optical frame (x right,
   /// y down, z forward) into `base_link`.
   Eigen::Isometry3d T_base_optical() const;
-  /// Sets the angles: roll and yaw from -180 to 180, pitch from -90 to 90. Where the sensor's x axis is
-  /// vertical, roll and yaw turn about one axis; all of that turn is called yaw then.
+  /// Sets the angles in degrees: roll and yaw from -180 to 180, pitch from -90 to 90. Where the sensor's x
+  /// axis is vertical, roll and yaw turn about the same axis; the whole rotation is then stored as yaw and
+  /// roll is 0.
   void setRotation(const Eigen::Matrix3d& R_base_sensor);
 };
 
 /// Section `mounting` of a rig file.
 struct Mounting {
   SensorMounting camera;  ///< the left camera as a body that looks along its x axis
-  SensorMounting imu;     ///< the axes that the IMU's messages are in
+  SensorMounting imu;     ///< the axes of the IMU's messages
 
   void describe(ParameterVisitor& visitor);
 };
@@ -42,32 +43,32 @@ struct Mounting {
 /// Sections of a rig file (config/rigs/thesis.yaml).
 namespace rig_sections {
 constexpr const char* kCameras = "cameras";      ///< stereo_capture's parameters
-constexpr const char* kImu = "imu";              ///< imu_bridge's
+constexpr const char* kImu = "imu";              ///< imu_bridge's parameters
 constexpr const char* kMounting = "mounting";    ///< Mounting
-constexpr const char* kDisparity = "disparity";  ///< those of stereo_image_proc/disparity
+constexpr const char* kDisparity = "disparity";  ///< parameters of stereo_image_proc/disparity
 }  // namespace rig_sections
 
-/// A rig file: everything that is true of one robot and of no other. This is the only reader and writer of
-/// such files. All functions throw ParameterError, with a message that begins with the file's name.
+/// A rig file holds everything that is specific to one robot. This is the only reader and writer of such
+/// files. All functions throw ParameterError, with a message that begins with the file's name.
 class RigFile {
  public:
-  /// Refuses a file that cannot be read, holds no sections, or holds one that nobody knows.
+  /// Reads a file. Throws if it cannot be read, holds no sections, or holds an unknown section.
   static RigFile load(const std::string& path);
-  /// `source` is what messages call the text.
+  /// Reads `text`, which messages call `source`.
   static RigFile parse(const std::string& text, const std::string& source);
 
-  /// An empty node where the file has no such section.
+  /// Returns a section; an empty node where the file has no such section.
   YAML::Node section(const std::string& name) const;
-  /// What messages call a section of this file.
+  /// The name that messages give a section of this file.
   std::string sectionName(const std::string& name) const;
 
-  /// The section `mounting`, checked; what it leaves out is zero.
+  /// Returns the checked section `mounting`. Values that it does not give are zero.
   Mounting mounting() const;
 
-  /// Requires that `mounting/SENSOR` of the file holds the three angles as numbers.
+  /// Throws unless `mounting/SENSOR` of the file holds the three angles as numbers.
   void requireRotation(const std::string& sensor) const;
-  /// Writes the angles of `R_base_sensor`, to 0.01 deg, in the place of those of `mounting/SENSOR`.
-  /// Everything else in the text, comments and line ends included, stays as it is to the byte.
+  /// Replaces the angles of `mounting/SENSOR` by those of `R_base_sensor`, rounded to 0.01 deg. Every other
+  /// byte of the text stays as it is, including comments and line ends.
   void setRotation(const std::string& sensor, const Eigen::Matrix3d& R_base_sensor);
 
   const std::string& text() const { return text_; }

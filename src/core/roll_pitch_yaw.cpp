@@ -11,7 +11,7 @@ RollPitchYaw RollPitchYaw::fromDegrees(double roll_deg, double pitch_deg, double
 }
 
 RollPitchYaw RollPitchYaw::of(const Eigen::Matrix3d& R) {
-  constexpr double kVertical = 1e-6;  // horizontal part of the turned x axis, which is 1 long
+  constexpr double kVertical = 1e-6;  // limit of the horizontal length of the rotated unit x axis
   const double level = std::hypot(R(0, 0), R(1, 0));
   RollPitchYaw angles;
   angles.pitch = std::atan2(-R(2, 0), level);

@@ -12,7 +12,7 @@ struct RollPitchYaw {
 
   static RollPitchYaw fromDegrees(double roll_deg, double pitch_deg, double yaw_deg);
 
-  /// Where the x axis becomes vertical, roll and yaw turn about one axis: all of that turn is called yaw.
+  /// Where the x axis becomes vertical, roll and yaw turn about one axis: the whole rotation is yaw.
   static RollPitchYaw of(const Eigen::Matrix3d& R);
 
   Eigen::Quaterniond quaternion() const;

@@ -11,8 +11,8 @@
 namespace stereo_nav {
 namespace {
 
-/// Share of the chi-square distribution below `x`: the recurrence over the degrees of freedom, two at a time
-/// (Abramowitz and Stegun, "Handbook of Mathematical Functions", 26.4.4 and 26.4.5).
+/// Share of the chi-square distribution below `x`, by the recurrence over the degrees of freedom, two at a
+/// time (Abramowitz and Stegun, "Handbook of Mathematical Functions", 26.4.4 and 26.4.5).
 double chiSquareShare(int dimensions, double x) {
   const bool odd = dimensions % 2 == 1;
   double share = odd ? std::erf(std::sqrt(0.5 * x)) : 1.0 - std::exp(-0.5 * x);

@@ -8,12 +8,12 @@
 namespace stereo_nav {
 
 /// Value below which the given share (0 to 1) of the samples lies, interpolated linearly between the two
-/// samples around it; 0.5 is the median. NaN without samples.
+/// nearest samples; a share of 0.5 gives the median. NaN without samples.
 double quantile(std::vector<double> samples, double share);
 
-/// The sample in the middle; of an even number the larger one of the two in the middle. Unlike quantile(0.5)
-/// it is always one of the samples and costs linear time, which suits thresholds and robust scales. Needs at
-/// least one sample. The order of the samples changes.
+/// The middle sample, or the larger of the two middle ones when their number is even. Unlike quantile(0.5) it
+/// is always one of the samples and takes linear time, which suits thresholds and robust scales. Needs at
+/// least one sample. Changes the order of the samples.
 template <class Number>
 Number upperMedian(std::vector<Number>& samples) {
   if (samples.empty()) throw std::invalid_argument("upperMedian() needs at least one sample");
@@ -22,9 +22,9 @@ Number upperMedian(std::vector<Number>& samples) {
   return *middle;
 }
 
-/// Square that the length of a normalised error of `dimensions` (1 to 6) exceeds in (1 - share) of all cases:
-/// the quantile of the chi-square distribution with that many degrees of freedom. `share` must lie between 0
-/// and 1, both excluded; the result is exact to 1e-9.
+/// Quantile of the chi-square distribution with `dimensions` (1 to 6) degrees of freedom: the squared length
+/// of a normalised error of that many dimensions exceeds it in (1 - share) of all cases. `share` must lie
+/// between 0 and 1, both excluded; the result is exact to 1e-9.
 double chiSquareQuantile(int dimensions, double share);
 
 }  // namespace stereo_nav

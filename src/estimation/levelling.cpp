@@ -18,7 +18,7 @@ std::optional<Eigen::Matrix3d> levelledAttitude(const RotationHistory& history, 
   } else {
     return std::nullopt;
   }
-  // Roll and pitch that bring the measured up onto z.
+  // Roll and pitch that rotate the measured upward direction onto z.
   const double roll_rad = std::atan2(up_base.y(), up_base.z());
   const double pitch_rad = std::atan2(-up_base.x(), std::hypot(up_base.y(), up_base.z()));
   return RollPitchYaw{roll_rad, pitch_rad, 0.0}.rotation();

@@ -9,7 +9,8 @@
 namespace stereo_nav::ros_io {
 namespace {
 
-/// Keeps a bag that cannot be closed until the process ends; see ~BagFile().
+/// Keeps a bag that cannot be closed until the process ends, since its destructor must not run; see
+/// ~BagFile().
 void giveUp(std::unique_ptr<rosbag::Bag> bag) {
   static auto* given_up = new std::vector<rosbag::Bag*>;  // never destroyed: that would destroy the bags, too
   given_up->push_back(bag.release());
@@ -22,9 +23,9 @@ BagFile::BagFile(const std::string& path) : path_(path), file_(path), bag_(std::
 }
 
 BagFile::~BagFile() {
-  // The destructor of a rosbag::Bag writes the index. On a full disk that throws, and out of a destructor it
-  // would end the program; so the bag is closed here, or, once it has failed, given up with the memory it
-  // holds.
+  // The destructor of a rosbag::Bag writes the index. On a full disk that throws, and an exception from a
+  // destructor would end the program. Therefore the bag is closed here or, once writing has failed, abandoned
+  // together with its memory.
   try {
     if (!failed_) bag_->close();
   } catch (const std::exception&) {

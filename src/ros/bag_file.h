@@ -11,8 +11,8 @@
 
 namespace stereo_nav::ros_io {
 
-/// A bag that appears under its name only when it is complete. Throws InputError
-/// that names the file when it cannot be written; no partial file is left behind.
+/// A bag that appears under its name only when it is complete. Throws an InputError that names the file when
+/// it cannot be written; no partial file is left behind.
 class BagFile {
  public:
   explicit BagFile(const std::string& path);
@@ -27,7 +27,8 @@ class BagFile {
     guarded([&] { bag_->write(topic, time, message); });
   }
 
-  /// As recorded from a latching publisher: rosbag play hands it to whoever comes later.
+  /// Writes a message as if recorded from a latching publisher: rosbag play gives it to later subscribers,
+  /// too.
   template <class Message>
   void writeLatched(const std::string& topic, const ros::Time& time, const Message& message) {
     const auto connection = boost::make_shared<ros::M_string>();

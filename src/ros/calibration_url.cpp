@@ -18,7 +18,7 @@ std::string replaced(std::string text, const std::string& name, const std::strin
   return at == std::string::npos ? text : text.replace(at, name.size(), value);
 }
 
-/// As ROS itself finds it.
+/// ROS_HOME, found as ROS itself does.
 std::string rosHome() {
   if (const char* ros_home = std::getenv("ROS_HOME")) return ros_home;
   const char* home = std::getenv("HOME");
@@ -33,7 +33,8 @@ std::string pathOfUrl(const std::string& named_url, const std::string& camera_na
   if (startsWith(url, file)) return url.substr(file.size());
   if (!startsWith(url, package)) {
     if (url.find("://") == std::string::npos) return url;
-    throw ParameterError(url + ": neither file:///PATH nor package://PACKAGE/PATH");
+    throw ParameterError(
+        url + ": the calibration URL must be file:///PATH, package://PACKAGE/PATH or a plain path");
   }
   const std::string rest = url.substr(package.size());
   const std::size_t slash = rest.find('/');

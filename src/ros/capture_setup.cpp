@@ -7,7 +7,7 @@ namespace {
 
 const std::string kControls = "controls";
 
-/// Appends the settings of a map; a later setting of a control goes before an earlier one.
+/// Appends the settings of a map; a later setting of a control overrides an earlier one.
 void addControls(const YAML::Node& map, const std::string& source,
                  std::vector<camera::ControlSetting>& settings) {
   if (!map.IsDefined() || map.IsNull()) return;
@@ -15,7 +15,7 @@ void addControls(const YAML::Node& map, const std::string& source,
   for (const auto& entry : map) {
     const auto control = entry.first.as<std::string>();
     try {
-      // true and false are how YAML writes many switches.
+      // In YAML, switches are often written as true and false.
       const auto value = entry.second.as<std::string>();
       const bool is_bool = value == "true" || value == "false";
       camera::setIn(settings,
@@ -26,7 +26,7 @@ void addControls(const YAML::Node& map, const std::string& source,
   }
 }
 
-/// Takes the map `controls` out of `tree`; empty where there is none.
+/// Removes the map `controls` from `tree` and returns it; empty where there is none.
 YAML::Node takeControls(const YAML::Node& tree) {
   if (!tree.IsMap() || !tree[kControls].IsDefined()) return {};
   const YAML::Node controls = tree[kControls];
@@ -65,7 +65,7 @@ void CameraSource::describe(ParameterVisitor& visitor) {
 void StereoCaptureParams::describe(ParameterVisitor& visitor) {
   visitSection(visitor, "left", left);
   visitSection(visitor, "right", right);
-  visitor.text("frame_id", frame_id, "of both cameras' images: the left optical frame");
+  visitor.text("frame_id", frame_id, "frame of both cameras' images: the left optical frame");
   visitor.flag("load_image_proc", load_image_proc,
                "rectify and compute disparity in this process; false: raw images only");
   capture.describe(visitor);

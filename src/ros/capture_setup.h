@@ -9,7 +9,7 @@
 
 namespace stereo_nav::ros_io {
 
-/// One of the two cameras.
+/// Parameters of one of the two cameras.
 struct CameraSource {
   std::string device;
   std::string calibration;
@@ -18,7 +18,7 @@ struct CameraSource {
 };
 
 /// Parameters of stereo_capture, in its private namespace and in section `cameras` of a rig file. Those of
-/// the capture stand beside them without a section.
+/// the capture are among them, without a section.
 struct StereoCaptureParams {
   camera::CaptureParams capture;
   CameraSource left;
@@ -29,16 +29,16 @@ struct StereoCaptureParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// The parameters and the V4L2 controls, whose names are the cameras' own: maps `controls` (of both cameras),
-/// `left/controls` and `right/controls`.
+/// The parameters and the V4L2 controls. The controls have the names that the cameras' drivers give them, and
+/// are set in the maps `controls` (both cameras), `left/controls` and `right/controls`.
 struct CaptureSetup {
   StereoCaptureParams params;
   std::vector<camera::ControlSetting> left_controls, right_controls;
 
-  /// Overlays what the sources hold. Throws ParameterError.
+  /// Overlays the values of the sources. Throws ParameterError.
   void read(const std::vector<ros_io::ParameterSource>& sources);
 
-  /// What the cameras are to be opened with. Throws ParameterError where a device is missing or both are the
+  /// Settings with which to open the cameras. Throws ParameterError if a device is not set or both are the
   /// same.
   camera::StereoConfig toConfig() const;
 };

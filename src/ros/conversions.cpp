@@ -82,16 +82,14 @@ vision::StereoCalibration toCalibration(const sensor_msgs::CameraInfo& left,
   if (calibration.baseline_m == 0.0) {
     throw InputError(
         "camera_info without baseline: P[3] of the right camera is 0. The cameras were calibrated one by "
-        "one; run a "
-        "stereo calibration");
+        "one; run a stereo calibration");
   }
   if (std::abs(left.P[0] - right.P[0]) > 1e-6 * left.P[0] ||
       std::abs(left.P[5] - right.P[5]) > 1e-6 * left.P[5] ||
       std::abs(left.P[6] - right.P[6]) > 1e-6 * std::abs(left.P[6])) {
     throw InputError(
         "the projection matrices P of the two camera_infos differ in fx, fy or cy; they are not from one "
-        "stereo "
-        "calibration");
+        "stereo calibration");
   }
   calibration.validate();
   return calibration;
@@ -148,7 +146,7 @@ cv::Mat toDisparityMap(const stereo_msgs::DisparityImage& message,
          << calibration.width << "x" << calibration.height << " '32FC1'";
     throw InputError(text.str());
   }
-  // The Mat only reads; OpenCV has no constructor for constant data.
+  // The Mat is only read; OpenCV has no constructor for constant data.
   const cv::Mat shared(static_cast<int>(image.height), static_cast<int>(image.width), CV_32FC1,
                        const_cast<unsigned char*>(image.data.data()), image.step);
   cv::Mat map = shared.clone();

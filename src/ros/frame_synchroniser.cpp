@@ -7,8 +7,9 @@
 namespace stereo_nav::ros_io {
 
 void FrameSynchroniserParams::describe(ParameterVisitor& visitor) {
-  visitor.integer("queue_size", queue_size, {2, 1000}, "frames",
-                  "left images that wait for the rest of their frame; the oldest gives way");
+  visitor.integer(
+      "queue_size", queue_size, {2, 1000}, "frames",
+      "left images that wait for the rest of their frame; when there are more, the oldest is dropped");
   visitor.real("max_skew_s", max_skew_s, {0.0, 0.45}, "s",
                "without camera/sync: a right image further from the left stamp is no partner");
   visitor.real(
@@ -47,7 +48,7 @@ void FrameSynchroniser::addDisparity(const stereo_msgs::DisparityImageConstPtr& 
 
 void FrameSynchroniser::addSync(const StereoSyncConstPtr& sync) {
   syncs_.add(sync->header.stamp, sync);
-  rolling_shutter_s_ = sync->rolling_shutter_s;  // stays when camera/sync goes quiet
+  rolling_shutter_s_ = sync->rolling_shutter_s;  // remains valid when camera/sync stops
 }
 
 std::optional<FrameMessages> FrameSynchroniser::take() {
@@ -92,7 +93,7 @@ FrameSynchroniser::Match FrameSynchroniser::matchRight(const ros::Time& left_sta
 FrameSynchroniser::Match FrameSynchroniser::matchNearestRight(const ros::Time& left_stamp,
                                                               FrameMessages& frame) const {
   const decltype(rights_)::Item* nearest = nullptr;
-  double nearest_skew_s = kClockJump_s;  // further away is another epoch of a clock that jumped
+  double nearest_skew_s = kClockJump_s;  // stamps further apart are from before and after a clock's jump
   bool later_seen = false;
   for (const auto& item : rights_.items()) {
     const double skew_s = (item.stamp - left_stamp).toSec();

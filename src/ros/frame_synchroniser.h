@@ -16,13 +16,13 @@ namespace stereo_nav::ros_io {
 
 using SteadyTime = std::chrono::steady_clock::time_point;
 
-/// The messages that make up one stereo frame.
+/// The messages of one stereo frame.
 struct FrameMessages {
   sensor_msgs::ImageConstPtr left;
   sensor_msgs::ImageConstPtr right;
-  stereo_msgs::DisparityImageConstPtr disparity;  ///< null where the odometry uses none, or none has come yet
-  ros::Time left_stamp;                           ///< the left image's
-  ros::Time right_stamp;                          ///< true exposure time: from camera/sync where there is one
+  stereo_msgs::DisparityImageConstPtr disparity;  ///< null if the odometry uses none, or before the first one
+  ros::Time left_stamp;                           ///< stamp of the left image
+  ros::Time right_stamp;                          ///< true exposure time, from camera/sync where there is one
   double rolling_shutter_s = 0.0;                 ///< time from the first row of an image to the last
   SteadyTime arrival;                             ///< when the left image reached the node
   bool after_jump = false;                        ///< first frame after the stamps jumped back
@@ -33,19 +33,20 @@ struct FrameSynchroniserParams {
   double max_skew_s = 0.06;
   double rolling_shutter_ms = 0.0;
   odometry::DisparityUse disparity =
-      odometry::DisparityUse::kMatched;  ///< follows from the odometry's configuration, no parameter
+      odometry::DisparityUse::kMatched;  ///< not a parameter: follows from the odometry's configuration
 
   void describe(ParameterVisitor& visitor);
 };
 
-/// Puts stereo frames together. What shares the left image's stamp (disparity, camera/sync) is matched
-/// exactly. The right image is the one that camera/sync names; without camera/sync it is the one with the
-/// nearest stamp, taken as soon as no later one can be nearer: with equal stamps, or a skew below half the
-/// right camera's period, at once. (message_filters' ApproximateTime lets a pair out only when the next one
-/// arrives: a whole frame of latency.)
+/// Assembles stereo frames. Disparity and camera/sync carry the left image's stamp and are matched exactly.
+/// The right image is the one that camera/sync names; without camera/sync it is the one with the nearest
+/// stamp. It is taken as soon as no later one can be nearer, which is at once if the stamps are equal or
+/// differ by less than half the right camera's period. (message_filters' ApproximateTime releases a pair only
+/// when the next one arrives, which costs a whole frame of latency.)
 ///
-/// Drop rule: a complete frame overtakes older incomplete ones (topics keep their order, so those will not be
-/// completed), and of more than `queue_size` waiting left images the oldest gives way. All are counted.
+/// Drop rule: when a frame is complete, older incomplete ones are dropped (topics keep their order, so that
+/// these would not be completed any more). When more than `queue_size` left images wait, the oldest is
+/// dropped. All drops are counted.
 class FrameSynchroniser {
  public:
   explicit FrameSynchroniser(const FrameSynchroniserParams& params);
@@ -55,10 +56,11 @@ class FrameSynchroniser {
   void addDisparity(const stereo_msgs::DisparityImageConstPtr& disparity);
   void addSync(const StereoSyncConstPtr& sync);
 
-  /// The next complete frame, in order of time. To be called until empty after each message.
+  /// Takes the next complete frame, in order of time. After each message it must be called until it returns
+  /// nothing.
   std::optional<FrameMessages> take();
 
-  /// Left images that never became a frame.
+  /// Number of left images that never became part of a frame.
   std::uint64_t dropped() const { return lefts_.dropped() + incomplete_; }
   ros::Time newestLeft() const { return lefts_.newest(); }
   ros::Time newestRight() const { return rights_.newest(); }
@@ -82,7 +84,7 @@ class FrameSynchroniser {
   StampBuffer<stereo_msgs::DisparityImageConstPtr> disparities_;
   StampBuffer<StereoSyncConstPtr> syncs_;
   double right_period_s_ = 0.0;  ///< shortest recent interval between right images; 0 while unknown
-  double rolling_shutter_s_;     ///< camera/sync's last, the parameter before there is one
+  double rolling_shutter_s_;     ///< last value of camera/sync; before the first one, the parameter
   bool jumped_ = false;
   std::uint64_t incomplete_ = 0;
 };

@@ -10,13 +10,13 @@
 namespace stereo_nav::ros_io {
 namespace {
 
-/// More threads than cores: image_proc/debayer queues a single image and loses it while all are busy with
-/// disparity.
+/// More threads than cores, because image_proc/debayer queues a single image and loses it while all threads
+/// are busy with disparity.
 constexpr int kThreads = 8;
-/// The nodelets' default of 5 loses images on a busy moment.
+/// With the nodelets' default of 5, images are lost under short load peaks.
 constexpr int kQueue = 20;
 
-/// To be set before the loader reads it.
+/// Must be called before the loader reads the parameter.
 bool setDefaultThreads() {
   const ros::NodeHandle private_handle("~");
   if (!private_handle.hasParam("num_worker_threads")) private_handle.setParam("num_worker_threads", kThreads);

@@ -6,7 +6,7 @@
 
 namespace stereo_nav::ros_io {
 
-/// The stamp of a recorded sensor_msgs/Image. Unlike the message itself it is read without its pixels.
+/// The stamp of a recorded sensor_msgs/Image, which is read without deserialising the pixels.
 struct ImageStamp {
   ros::Time stamp;
 };

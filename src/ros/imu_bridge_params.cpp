@@ -12,13 +12,13 @@ void ImuBridgeParams::describe(ParameterVisitor& visitor) {
   visitor.real("rate_window_s", rate_window_s, {0.001, 1.0}, "s",
                "angle module: time over which angles are differentiated");
   visitor.real("tilt_stddev_rad", tilt_stddev_rad, {1e-6, 3.2}, "rad",
-               "of roll and pitch, for the covariance", Change::kLive);
-  visitor.real("yaw_stddev_rad", yaw_stddev_rad, {1e-6, 3.2}, "rad", "of yaw, for the covariance",
-               Change::kLive);
+               "standard deviation of roll and pitch, for the covariance", Change::kLive);
+  visitor.real("yaw_stddev_rad", yaw_stddev_rad, {1e-6, 3.2}, "rad",
+               "standard deviation of yaw, for the covariance", Change::kLive);
   visitor.real("angular_velocity_stddev_rad_s", angular_velocity_stddev_rad_s, {1e-6, 10.0}, "rad/s",
-               "for the covariance", Change::kLive);
+               "standard deviation of the angular velocity, for the covariance", Change::kLive);
   visitor.real("linear_acceleration_stddev_m_s2", linear_acceleration_stddev_m_s2, {1e-6, 100.0}, "m/s^2",
-               "for the covariance", Change::kLive);
+               "standard deviation of the linear acceleration, for the covariance", Change::kLive);
   device.describe(visitor);
   visitSection(visitor, "filter", filter);
   visitSection(visitor, "gyro_calibration", gyro_calibration);

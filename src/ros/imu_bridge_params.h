@@ -9,7 +9,7 @@
 
 namespace stereo_nav::ros_io {
 
-/// Parameters of the imu_bridge node; those of the device stand beside them without a section.
+/// Parameters of the imu_bridge node. Those of the device are among them, without a section.
 struct ImuBridgeParams {
   std::string port = "/dev/ttyUSB0";
   std::string by_id_directory = "/dev/serial/by-id";

@@ -6,14 +6,14 @@
 namespace stereo_nav::ros_io {
 namespace {
 
-/// Ten seconds at 400 Hz: as much as the odometry's own history is worth.
+/// Ten seconds at 400 Hz, which is the length of the odometry's own history.
 constexpr std::size_t kMaxImuSamples = 4000;
 
 }  // namespace
 
 void InboxParams::describe(ParameterVisitor& visitor) {
   visitor.integer("capacity", capacity, {1, 100}, "frames",
-                  "complete frames that wait for the odometry; the oldest gives way");
+                  "complete frames that wait for the odometry; when there are more, the oldest is dropped");
   visitor.real(
       "imu_wait_s", imu_wait_s, {0.0, 1.0}, "s",
       "how long a frame waits for IMU messages up to its stamp, counted from its left image's arrival");
@@ -51,7 +51,7 @@ void Inbox::addImu(const ImuSample& sample) {
   if (!frames_.empty()) arrived_.notify_one();
 }
 
-/// When a frame is handed out even without the IMU samples it waits for.
+/// The time at which a frame is handed out even without the IMU samples that it waits for.
 SteadyTime Inbox::deadline(const FrameMessages& frame) const {
   const std::chrono::duration<double> patience(params_.imu_wait_s);
   return frame.arrival + std::chrono::duration_cast<SteadyTime::duration>(patience);

@@ -16,34 +16,34 @@ namespace stereo_nav::ros_io {
 struct InboxParams {
   int capacity = 5;
   double imu_wait_s = 0.1;
-  bool wait_for_imu = true;  ///< follows from which IMU topic is used, no parameter
+  bool wait_for_imu = true;  ///< not a parameter: follows from the IMU topic that is used
 
   void describe(ParameterVisitor& visitor);
 };
 
-/// Between the callbacks, which must return quickly, and the thread that runs the odometry. A frame is handed
-/// out when an IMU sample at or after both its stamps has come (so that the attitude at the image can be
-/// interpolated), or when it has waited `imu_wait_s` for one. Thread-safe.
+/// Queue between the callbacks, which must return quickly, and the thread that runs the odometry. A frame is
+/// handed out when an IMU sample at or after both its stamps has arrived (so that the attitude at the image
+/// can be interpolated), or when it has waited `imu_wait_s` for one. Thread-safe.
 ///
-/// Drop rule: of more than `capacity` frames the oldest gives way; counted.
+/// Drop rule: when more than `capacity` frames wait, the oldest is dropped and counted.
 class Inbox {
  public:
   struct Work {
     FrameMessages frame;
-    std::vector<ImuSample> imu;  ///< not handed out before, up to the first one after the frame
-    bool imu_late = false;       ///< handed out without the samples it waited for
+    std::vector<ImuSample> imu;  ///< samples since the last hand-out, up to the first one after the frame
+    bool imu_late = false;       ///< the frame was handed out without the samples it waited for
   };
 
   explicit Inbox(const InboxParams& params) : params_(params) {}
 
   void push(FrameMessages frame);
-  /// A sample much older than the newest starts a new epoch (a bag that loops); a little older, it is
-  /// dropped.
+  /// Adds a sample. One that is much older than the newest starts a new epoch (a bag that loops); one that is
+  /// a little older is dropped.
   void addImu(const ImuSample& sample);
 
-  /// The next frame, if it is ready at `now`.
+  /// Takes the next frame, if it is ready at `now`.
   std::optional<Work> take(SteadyTime now);
-  /// Waits for the next frame; nothing after stop().
+  /// Waits for the next frame; returns nothing after stop().
   std::optional<Work> waitAndTake();
   void stop();
 

@@ -37,8 +37,9 @@ std::map<std::string, std::string> InputMonitor::silentInputs(double now_s) cons
     }
     const unsigned int publishers = state.input.publishers();
     if (publishers == 0) {
-      message << "; no node publishes it: not started, stopped, or under another name (compare `rostopic "
-                 "list`, remap)";
+      message
+          << "; no node publishes it: not started, stopped, or under another name (compare `rostopic list`, "
+             "remap)";
     } else {
       message << "; " << publishers << " connected publisher(s) send nothing: they wait for their own input";
     }
@@ -69,15 +70,13 @@ std::string InputMonitor::unsynchronised(double now_s) const {
   }
   constexpr double kOtherClock_s = 1.0;
   if (std::abs(widest_s) > kOtherClock_s) {
-    message << ". Stamps this far apart come from different clocks or recordings: run all drivers on one "
-               "host's clock "
-               "(chrony between hosts), and do not mix a bag with live topics";
+    message
+        << ". Stamps this far apart come from different clocks or recordings: run all drivers on one host's "
+           "clock (chrony between hosts), and do not mix a bag with live topics";
   } else {
     message << ". The disparity must carry the left image's exact stamp (disparity nodelet without "
-               "approximate_sync) "
-               "and a right image must lie within synchronisation/max_skew_s of it: use stereo_capture, "
-               "which stamps "
-               "a pair alike, or raise max_skew_s for free-running cameras";
+               "approximate_sync) and a right image must lie within synchronisation/max_skew_s of it: use "
+               "stereo_capture, which stamps a pair alike, or raise max_skew_s for free-running cameras";
   }
   return message.str();
 }

@@ -11,14 +11,14 @@
 
 namespace stereo_nav::ros_io {
 
-/// Watches the topics of a node and explains, after a few seconds, why nothing comes out of it: which topic
-/// is silent or which stamps do not fit, the likely cause and the remedy. Times are seconds on a clock that
-/// only runs forward and stands still while a replay is paused.
+/// Watches the input topics of a node. When the node has had no output for a few seconds, it explains which
+/// topic is silent or which stamps do not match, the likely cause and the remedy. Times are seconds on a
+/// clock that only runs forward and stands still while a replay is paused.
 class InputMonitor {
  public:
   struct Input {
     std::string topic;                         ///< resolved name
-    std::string remedy;                        ///< what to look at if it is silent
+    std::string remedy;                        ///< what to check if it is silent
     bool stamped = true;                       ///< its stamps take part in the synchronisation
     std::function<unsigned int()> publishers;  ///< how many nodes publish it now
   };
@@ -31,10 +31,10 @@ class InputMonitor {
   void received(std::size_t input, const ros::Time& stamp, double now_s);
   void frameCompleted(double now_s) { last_frame_s_ = now_s; }
 
-  /// One text for each silent input, by topic; empty texts for those that are not.
+  /// One text for each input, by topic; empty for inputs that are not silent.
   std::map<std::string, std::string> silentInputs(double now_s) const;
 
-  /// All inputs run and yet no frame comes together; empty if that is not so.
+  /// Text for the case that all inputs deliver and yet no frame is completed; otherwise empty.
   std::string unsynchronised(double now_s) const;
 
  private:

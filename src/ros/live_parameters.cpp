@@ -22,10 +22,10 @@ using Value = std::variant<bool, int, double, std::string>;
 struct LiveField {
   ParameterField field;
   Value value, min, max;
-  std::vector<std::string> names;  ///< of a choice
+  std::vector<std::string> names;  ///< allowed values of a choice
 };
 
-/// The present section as a namespace, e.g. `uncertainty` or `a/b`.
+/// The current section as a namespace, e.g. `uncertainty` or `a/b`.
 std::string namespaceOf(const std::vector<std::string>& sections) {
   std::string path;
   for (const auto& section : sections) path += (path.empty() ? "" : "/") + section;
@@ -64,7 +64,7 @@ std::vector<LiveField> collect(const Describe& describe, const std::string& sect
   return collector.fields[section];
 }
 
-/// Assigns what a request holds to the live fields of one section.
+/// Assigns the values of a request to the live fields of one section.
 class LiveFieldAssigner : public ParameterVisitor {
  public:
   LiveFieldAssigner(const Config& request, std::string section)
@@ -115,7 +115,7 @@ Config toConfig(const std::vector<LiveField>& fields, Value LiveField::*member) 
   return config;
 }
 
-/// How clients show a choice: a literal of Python that dynamic_reconfigure prescribes.
+/// Description of a choice for the clients: a Python literal in the form that dynamic_reconfigure prescribes.
 std::string editMethod(const LiveField& live) {
   if (live.names.empty()) return "";
   std::string items;
@@ -146,7 +146,7 @@ dynamic_reconfigure::ConfigDescription toDescription(const std::vector<LiveField
   return description;
 }
 
-/// Why the request cannot be taken; empty where it can.
+/// The reason why the request must be refused; empty if it is valid.
 std::string refusal(const Config& request, const std::vector<LiveField>& fields) {
   for (const auto& live : fields) {
     double number = 0.0;
@@ -164,7 +164,7 @@ std::string refusal(const Config& request, const std::vector<LiveField>& fields)
   return "";
 }
 
-/// Names in the request that are no live parameter of that type.
+/// Names in the request that do not belong to a live parameter of that type.
 std::string unknownNames(const Config& request, const std::vector<LiveField>& fields) {
   std::string unknown;
   const auto look = [&](const auto& values, std::size_t type) {
@@ -187,7 +187,7 @@ std::string unknownNames(const Config& request, const std::vector<LiveField>& fi
 LiveParameterServer::LiveParameterServer(const ros::NodeHandle& handle, Describe describe,
                                          const Describe& describe_defaults, std::function<void()> changed)
     : handle_(handle), describe_(std::move(describe)), changed_(std::move(changed)) {
-  const std::lock_guard<std::mutex> lock(mutex_);  // of requests that come before everything is set up
+  const std::lock_guard<std::mutex> lock(mutex_);  // holds requests back until everything is set up
   writeParameters(handle_, describe_);
   LiveFieldCollector collector;
   describe_(collector);
@@ -225,7 +225,7 @@ bool LiveParameterServer::set(const std::string& section, dynamic_reconfigure::R
   }
   const std::string unknown = unknownNames(request.config, before);
   if (!unknown.empty()) {
-    ROS_ERROR_STREAM(service << ": unknown, of another type, or not to be changed while the node runs: "
+    ROS_ERROR_STREAM(service << ": unknown, of another type, or not changeable while the node runs: "
                              << unknown << ". docs/parameters.md marks what is live");
   }
   LiveFieldAssigner assigner(request.config, section);

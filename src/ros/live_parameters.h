@@ -21,13 +21,13 @@ using Describe = std::function<void(ParameterVisitor&)>;
 /// The part of LiveParameters that does not depend on the struct.
 class LiveParameterServer {
  public:
-  /// `describe` visits the values as they are, `describe_defaults` those of a struct that nobody changed.
+  /// `describe` visits the current values, `describe_defaults` those of an unchanged struct.
   LiveParameterServer(const ros::NodeHandle& handle, Describe describe, const Describe& describe_defaults,
                       std::function<void()> changed);
 
  private:
-  /// Of a section that holds live parameters: dynamic_reconfigure knows no nested names, so that each has a
-  /// service and topics of its own, in its namespace.
+  /// Service and topics of one section that holds live parameters. dynamic_reconfigure has no nested names,
+  /// so that each section has its own, in its namespace.
   struct Section {
     ros::NodeHandle handle;
     ros::Publisher descriptions, updates;
@@ -41,7 +41,7 @@ class LiveParameterServer {
   ros::NodeHandle handle_;
   Describe describe_;
   std::function<void()> changed_;
-  std::mutex mutex_;  ///< of the values, and of the order in which changes are told
+  std::mutex mutex_;  ///< guards the values and the order in which changes are reported
   std::map<std::string, Section> sections_;
 };
 
@@ -52,16 +52,16 @@ class LiveParameterServer {
 /// topics `parameter_descriptions` and `parameter_updates`, in the handle's namespace and below it in that of
 /// every section with live parameters.
 ///
-/// A value out of range is replaced by the nearest allowed one. A request that holds something that is no
-/// value of the parameter (NaN, an unknown choice) changes nothing and fails; a name that is unknown or not
-/// live is reported, the other values of the request are taken.
+/// A value out of range is replaced by the nearest allowed one. A request with an invalid value (NaN, an
+/// unknown choice) fails and changes nothing. A name that is unknown or not live is reported, and the other
+/// values of the request take effect.
 template <class Params>
 class LiveParameters {
  public:
   using Changed = std::function<void(const Params&)>;
 
-  /// Calls `changed` at once, with `params`, and after every change, from the threads that serve the handle's
-  /// callbacks, never twice at a time.
+  /// Calls `changed` with `params` at once, and again after every change, from the threads that serve the
+  /// handle's callbacks. Calls never overlap.
   LiveParameters(const ros::NodeHandle& handle, const Params& params, Changed changed)
       : params_(params),
         changed_(std::move(changed)),

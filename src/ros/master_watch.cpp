@@ -22,16 +22,16 @@ using std::chrono::milliseconds;
 constexpr milliseconds kPeriod{1000};
 constexpr int kConnectTimeout_ms = 1000;
 constexpr int kGoneStatus = 3;
-/// An orderly shutdown talks to nodes and masters that may not answer; it gets this long.
+/// Time limit of an orderly shutdown, which talks to nodes and masters that may not answer.
 constexpr milliseconds kShutdownPatience{2000};
 
-/// What one look at the master shows, and how many in a row make it gone.
+/// Result of one check of the master; patience() says how many equal results in a row mean that it has gone.
 enum class Answer { kGood, kRefused, kUnknownNode, kUnreachable };
 
 int patience(Answer answer) {
   switch (answer) {
     case Answer::kUnreachable:
-      return 15;  // each takes up to two seconds
+      return 15;  // each check takes up to two seconds
     default:
       return 3;
   }
@@ -42,13 +42,13 @@ const char* wordsFor(Answer answer) {
     case Answer::kRefused:
       return "its port refuses connections; roscore has ended";
     case Answer::kUnknownNode:
-      return "one that does not know this node answers in its place; roscore was started anew";
+      return "another master, which does not know this node, answers in its place; roscore was restarted";
     default:
       return "it cannot be reached; look at the network between the computers";
   }
 }
 
-/// Whether a connection comes about: kGood, kRefused or kUnreachable.
+/// Tries to connect; the result is kGood, kRefused or kUnreachable.
 Answer connect(const std::string& host, unsigned int port) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
@@ -96,8 +96,8 @@ std::atomic<bool> gone_was_said{false};
 struct MasterWatch::Shared {
   std::mutex mutex;
   std::condition_variable changed;
-  bool stop = false;      ///< under mutex
-  bool finished = false;  ///< under mutex
+  bool stop = false;      ///< guarded by mutex
+  bool finished = false;  ///< guarded by mutex
   std::atomic<bool> gone{false};
 };
 

@@ -5,22 +5,22 @@
 
 namespace stereo_nav::ros_io {
 
-/// Notices when the ROS master has gone, which roscpp does not: the node would run on, and nobody who starts
-/// later could find it. Says so and shuts ROS down, so that whoever started the node (`respawn`, a service
-/// manager) starts it again, where it waits for the next master.
+/// Detects that the ROS master has gone, which roscpp does not do: the node would run on, and nodes that
+/// start later could not find it. Logs this and shuts ROS down, so that `respawn` or a service manager starts
+/// the node again, which then waits for the next master.
 ///
-/// Gone is a master whose port refuses connections for three seconds, one that answers but does not know this
-/// node (it is a new one), and one that cannot be reached for half a minute: a wireless link that is cut for
-/// less disturbs nothing. One a process is enough; more do no harm.
+/// The master has gone if its port refuses connections for three seconds, if it answers but does not know
+/// this node (a new master), or if it cannot be reached for half a minute; shorter interruptions of a
+/// wireless link have no effect. One object per process is enough; more do no harm.
 class MasterWatch {
  public:
-  /// The node must have been registered by a first node handle.
+  /// A node handle must exist already, so that the node is registered.
   MasterWatch();
   ~MasterWatch();
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
-  /// For main() to return: 0, or 3 when the master has gone.
+  /// The exit status for main(): 0, or 3 when the master has gone.
   int exitStatus() const;
 
  private:

@@ -8,11 +8,11 @@
 
 namespace stereo_nav::ros_io {
 
-/// What every node's main() does: `run` works until ROS shuts down and returns the exit status. An exception
-/// is said as fatal and gives status 2, a master that has gone gives 3.
+/// The main() of every node. `run` works until ROS shuts down and returns the exit status. An exception is
+/// logged as fatal and gives status 2; the loss of the master gives status 3.
 inline int runNode(int argc, char** argv, const char* name, int (*run)()) {
   ros::init(argc, argv, name);
-  // With the last handle ROS shuts down, and then nobody hears what was wrong.
+  // ROS shuts down with the last handle, and after that the error could not be logged.
   const ros::NodeHandle keeps_ros_running;
   try {
     const MasterWatch master;

@@ -4,11 +4,11 @@
 
 namespace stereo_nav::ros_io {
 
-/// `name` itself where such a file exists, else the file of that name in the package's config folder.
-/// Throws InputError that names both places.
+/// Returns `name` itself where such a file exists, otherwise the file of that name in the package's config
+/// folder. Throws an InputError that names both places.
 std::string configFile(const std::string& name);
 
-/// `name` itself where such a file exists, else the scenario of that name in the package.
+/// Returns `name` itself where such a file exists, otherwise the scenario of that name in the package.
 std::string scenarioFile(const std::string& name);
 
 /// Folder of the thesis rig's left.yaml and right.yaml.

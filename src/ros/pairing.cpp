@@ -39,7 +39,7 @@ std::vector<StampPair> pairBySync(const std::vector<ros::Time>& left, const std:
   return pairs;
 }
 
-/// Infinite for fewer than two stamps: then anything pairs.
+/// Infinite for fewer than two stamps: then any distance in time is accepted.
 double medianPeriod_s(const std::vector<ros::Time>& stamps) {
   std::vector<double> periods;
   for (std::size_t i = 1; i < stamps.size(); ++i) periods.push_back((stamps[i] - stamps[i - 1]).toSec());
@@ -62,7 +62,7 @@ std::vector<StampPair> pairByNearest(const std::vector<ros::Time>& left,
     const auto after = std::lower_bound(right.begin(), right.end(), left[l]);
     const auto r = static_cast<std::size_t>(after - right.begin());
     for (const std::size_t neighbour : {r, r - 1}) {
-      if (neighbour >= right.size()) continue;  // also r - 1 of r = 0
+      if (neighbour >= right.size()) continue;  // also true of r - 1 where r = 0
       const double skew_s = std::abs((right[neighbour] - left[l]).toSec());
       if (skew_s <= max_skew_s) candidates.push_back({l, neighbour, skew_s});
     }

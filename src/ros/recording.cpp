@@ -137,7 +137,7 @@ void Recording::readImu() {
       sample = toImuSample(*imu);
       imu_frame_ = withoutSlash(imu->header.frame_id);
     } else if (const auto q = message.instantiate<geometry_msgs::Quaternion>()) {
-      // The thesis' topic has no header: the time of arrival is all there is.
+      // The thesis' topic has no header; the time of arrival is the only stamp.
       sample.time_s = message.getTime().toSec();
       sample.q_world_imu = Eigen::Quaterniond(q->w, q->x, q->y, q->z);
     } else {
@@ -177,7 +177,7 @@ void Recording::pairImages(const RecordingOptions& options) {
             " of another version of stereo_nav; leave the topic out (rosbag filter IN.bag "
             "OUT.bag \"topic != '" +
             *topics_.sync +
-            "'\"): the images' own stamps pair them then, right for cameras that were synchronised");
+            "'\"): the images are then paired by their own stamps, which is right for synchronised cameras");
       }
       sync.push_back(*pair);
     }
@@ -251,7 +251,7 @@ Recording::GroundTruth Recording::groundTruth(const std::string& topic, bool req
 }
 
 void Recording::forEachPair(const std::function<void(const RawPair&)>& handle) const {
-  // Messages come in order of recording; an image waits here until its partner has come.
+  // Messages come in the order of recording; an image waits here until its partner has been read.
   std::map<std::size_t, sensor_msgs::ImageConstPtr> waiting_left;
   std::map<std::size_t, sensor_msgs::ImageConstPtr> waiting_right;
   std::map<ros::Time, std::size_t> pair_of_left;

@@ -6,8 +6,9 @@
 
 namespace stereo_nav::ros_io {
 
-/// Seconds that pass only while the ROS clock moves: a paused replay is no silence. To be asked often: what
-/// is longer than `longest_tick_s` between two questions counts as a pause, too. Not thread-safe.
+/// Counts seconds only while the ROS clock moves, so that a paused replay does not look like silent topics.
+/// It must be read often: an interval longer than `longest_tick_s` between two readings also counts as a
+/// pause. Not thread-safe.
 class RunningClock {
  public:
   explicit RunningClock(double longest_tick_s)

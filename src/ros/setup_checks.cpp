@@ -35,9 +35,8 @@ vision::StereoCalibration checkedCalibration(const sensor_msgs::Image& left, con
                                              const sensor_msgs::CameraInfo& right_info) {
   if (left.header.frame_id.empty()) {
     throw InputError(
-        "the left image carries no frame id, so that nobody can say where the camera sits; set the frame_id "
-        "parameter "
-        "of the camera driver");
+        "the left image carries no frame id, so that the position of the camera is unknown; set the frame_id "
+        "parameter of the camera driver");
   }
   const vision::StereoCalibration calibration = ros_io::toCalibration(left_info, right_info);
   checkImage(left, left_info, "left");

@@ -9,12 +9,12 @@
 
 namespace stereo_nav::ros_io {
 
-/// tf wants frame ids without the leading slash that old recordings have.
+/// Removes the leading slash that frame ids in old recordings have; tf requires ids without it.
 std::string withoutSlash(const std::string& frame_id);
 
-/// Geometry of the pair from what the cameras say of themselves. Throws InputError when images and
-/// camera_infos do not belong together: another frame id (image_geometry aborts the process on that), none,
-/// another size, or a camera_info that is no stereo calibration.
+/// Geometry of the pair from the cameras' camera_infos. Throws InputError when images and camera_infos do not
+/// belong together: their frame ids differ (image_geometry would abort the process), the frame id is empty,
+/// their sizes differ, or the camera_infos are no stereo calibration.
 vision::StereoCalibration checkedCalibration(const sensor_msgs::Image& left, const sensor_msgs::Image& right,
                                              const sensor_msgs::CameraInfo& left_info,
                                              const sensor_msgs::CameraInfo& right_info);
@@ -22,8 +22,8 @@ vision::StereoCalibration checkedCalibration(const sensor_msgs::Image& left, con
 /// Whether the two describe the same camera; stamps do not matter.
 bool sameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b);
 
-/// What to say while a transform is missing: its name, tf's own words, and the command that publishes it.
-/// `sensor_is_camera` picks the example's rotation: optical axes or the body's.
+/// Message for a missing transform: its name, tf's own error, and a command that publishes it.
+/// `sensor_is_camera` selects the rotation in the example: that of optical axes or that of the body's axes.
 std::string missingTransform(const std::string& base_frame, const std::string& sensor_frame,
                              bool sensor_is_camera, const std::string& tf_error);
 

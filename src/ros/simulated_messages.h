@@ -15,8 +15,8 @@
 
 namespace stereo_nav::ros_io {
 
-/// What stereo_capture publishes of one pair by default, and the truth at its left image: images, infos and
-/// odometry carry the left image's exposure time, the true instants are in `sync`.
+/// The messages that stereo_capture publishes for one pair by default, and the true motion at its left image.
+/// Images, infos and odometry carry the left image's exposure time; the true times are in `sync`.
 struct PairMessages {
   sensor_msgs::Image left, right;
   sensor_msgs::CameraInfo left_info, right_info;
@@ -25,9 +25,10 @@ struct PairMessages {
   double available_s;  ///< when both images are complete, simulation time
 };
 
-/// The sensors of a simulation as messages. `start` is the stamp of simulation time 0; the IMU, which the
-/// simulation has in the base's origin with the base's axes, sits at `T_base_imu`. (Its acceleration remains
-/// that of the origin.) Const methods may be called from several threads; `simulation` must outlive it.
+/// The sensors of a simulation as messages. `start` is the stamp of simulation time 0. The simulation has the
+/// IMU in the base's origin with the base's axes; its messages are converted to the axes of `T_base_imu`, but
+/// the acceleration remains that of the origin. Const methods may be called from several threads.
+/// `simulation` must outlive this object.
 class SimulatedMessages {
  public:
   SimulatedMessages(const sim::Simulation& simulation, const ros::Time& start,
@@ -41,10 +42,11 @@ class SimulatedMessages {
   /// The thesis' `imu_quat`: attitude without a header, front-left-up.
   geometry_msgs::Quaternion imuQuaternion(std::size_t index) const;
   bool hasAttitude() const;
-  /// The robot passes way-point `index`; stamp is the moment, point the way-point in `odom`.
+  /// The robot passes way-point `index`: the stamp is the time of the passage, the point is the way-point in
+  /// `odom`.
   geometry_msgs::PointStamped waypoint(std::size_t index) const;
-  /// Where cameras and IMU sit on `base_link`. The right optical frame is there for the eye only: both images
-  /// carry the left one.
+  /// Poses of the cameras and the IMU on `base_link`. The right optical frame is for display only: both
+  /// images carry the left one.
   tf2_msgs::TFMessage staticTransforms() const;
 
   /// Pose of `base_link` in `odom` and its velocities.

@@ -9,11 +9,12 @@
 
 namespace stereo_nav::ros_io {
 
-/// A stamp this much older than the newest of its topic is no late message but a clock that jumped back: a
-/// bag that starts again, or a corrected clock.
+/// A stamp this much older than the newest of its topic means that the clock jumped back (a bag that starts
+/// again, or a corrected clock), not that the message is late.
 constexpr double kClockJump_s = 0.5;
 
-/// The last messages of one topic in order of their stamps. Bounded; the oldest gives way and is counted.
+/// The last messages of one topic in order of their stamps. Their number is bounded; the oldest is dropped
+/// and counted.
 template <class MessagePtr>
 class StampBuffer {
  public:
@@ -23,8 +24,8 @@ class StampBuffer {
   };
   enum class Added {
     kKept,
-    kStale,       ///< not newer than the newest: ignored and counted
-    kJumpedBack,  ///< kept; everything older was forgotten and counted
+    kStale,       ///< not newer than the newest message: ignored and counted
+    kJumpedBack,  ///< kept; all earlier messages were dropped and counted
   };
 
   explicit StampBuffer(std::size_t capacity) : capacity_(capacity) {}
@@ -50,7 +51,7 @@ class StampBuffer {
     return result;
   }
 
-  /// Null if there is none of exactly this stamp.
+  /// The message with exactly this stamp; null if there is none.
   MessagePtr find(const ros::Time& stamp) const {
     for (const Item& item : items_) {
       if (item.stamp == stamp) return item.message;
@@ -58,7 +59,7 @@ class StampBuffer {
     return MessagePtr();
   }
 
-  /// Forgets what is not newer than `stamp`; returns how many.
+  /// Drops the messages that are not newer than `stamp`; returns their number.
   std::size_t discardUpTo(const ros::Time& stamp) {
     std::size_t count = 0;
     for (; !items_.empty() && items_.front().stamp <= stamp; ++count) items_.pop_front();

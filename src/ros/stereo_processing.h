@@ -32,22 +32,23 @@ struct DisparityParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Rectification and disparity by the very library code that the image_proc/rectify and
+/// Rectification and disparity by the same library code that the image_proc/rectify and
 /// stereo_image_proc/disparity nodelets run, without a graph. Not thread-safe (the block matcher keeps
 /// scratch buffers).
 class StereoProcessing {
  public:
-  /// Throws InputError for camera_infos that are no stereo calibration.
+  /// Throws InputError if the camera_infos are no stereo calibration.
   StereoProcessing(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right,
                    const DisparityParams& disparity);
 
   const vision::StereoCalibration& calibration() const { return calibration_; }
 
-  /// CV_8UC1, bilinear as the nodelet's default. Images must have the calibration's size; throws InputError.
+  /// Rectifies to CV_8UC1, with bilinear interpolation, which is the nodelet's default. Throws InputError for
+  /// images that do not have the calibration's size.
   cv::Mat rectifyLeft(const cv::Mat& raw) const;
   cv::Mat rectifyRight(const cv::Mat& raw) const;
 
-  /// CV_32FC1 in px, -1 where there is none.
+  /// Disparity in px, CV_32FC1, -1 where there is none.
   cv::Mat disparity(const cv::Mat& left_rect, const cv::Mat& right_rect) const;
 
  private:

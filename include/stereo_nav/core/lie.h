@@ -10,11 +10,12 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// The cross product as a matrix: hat(v) w = v x w.
 Eigen::Matrix3d hat(const Eigen::Vector3d& v);
 
-/// SO(3): the rotation about the axis of `angle` by its length in rad, as a quaternion or as a matrix.
+/// SO(3): the rotation about the direction of the vector `angle` by its length in rad, as a quaternion or as
+/// a matrix.
 Eigen::Quaterniond expQuaternion(const Eigen::Vector3d& angle);
 Eigen::Matrix3d expRotation(const Eigen::Vector3d& angle);
 
-/// The inverse of the two functions above, in rad; at most pi long.
+/// The inverse of the two functions above: a rotation vector in rad, at most pi long.
 Eigen::Vector3d logRotation(const Eigen::Quaterniond& q);
 Eigen::Vector3d logRotation(const Eigen::Matrix3d& R);
 

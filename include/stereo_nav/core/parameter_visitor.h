@@ -8,13 +8,14 @@
 
 namespace stereo_nav {
 
-/// A parameter that cannot be used; the message names the parameter, the value seen and what is allowed.
+/// Thrown for a parameter that cannot be used. The message names the parameter, the value seen and what is
+/// allowed.
 class ParameterError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Both ends are allowed values.
+/// Range of a parameter. Both ends are allowed values.
 template <class T>
 struct Range {
   T min;  ///< smallest allowed value
@@ -27,7 +28,7 @@ enum class Change {
   kLive,     ///< dynamic_reconfigure can change it on the running node, too
 };
 
-/// What a parameter struct tells about a field beside its value and range.
+/// What a parameter struct says about a field besides its value and range.
 struct ParameterField {
   std::string name;  ///< as in configuration files, without its sections
   std::string unit;  ///< empty for pure numbers
@@ -35,50 +36,50 @@ struct ParameterField {
   Change change;     ///< whether it may change on a running node
 };
 
-/// What every parameter struct tells about each of its fields, once, in its `describe(ParameterVisitor&)`.
-/// Reading YAML, checking ranges, dynamic_reconfigure and the documentation are visitors; none of them knows
-/// the structs.
+/// Receives the description of each field of a parameter struct, which the struct gives once, in its
+/// `describe(ParameterVisitor&)`. Reading YAML, checking ranges, dynamic_reconfigure and the documentation
+/// are visitors; none of them knows the structs.
 class ParameterVisitor {
  public:
   virtual ~ParameterVisitor() = default;
 
-  /// Yes or no.
+  /// A field that is true or false.
   void flag(const std::string& name, bool& value, const std::string& doc, Change change = Change::kAtStart) {
     visit({name, "", doc, change}, value);
   }
-  /// A whole number.
+  /// A field that is a whole number.
   void integer(const std::string& name, int& value, Range<int> range, const std::string& unit,
                const std::string& doc, Change change = Change::kAtStart) {
     visit({name, unit, doc, change}, value, range);
   }
-  /// A number.
+  /// A field that is a real number.
   void real(const std::string& name, double& value, Range<double> range, const std::string& unit,
             const std::string& doc, Change change = Change::kAtStart) {
     visit({name, unit, doc, change}, value, range);
   }
-  /// Free text: names of frames, topics, devices, files.
+  /// A field with free text: the name of a frame, topic, device or file.
   void text(const std::string& name, std::string& value, const std::string& doc,
             Change change = Change::kAtStart) {
     visit({name, "", doc, change}, value);
   }
-  /// `index` counts into `names`.
+  /// A field that takes one of `names`; `index` is the position of its value in `names`.
   void choice(const std::string& name, std::size_t& index, const std::vector<std::string>& names,
               const std::string& doc, Change change = Change::kAtStart) {
     visit({name, "", doc, change}, index, names);
   }
-  /// The fields that follow, up to leaveSection(), are in the section `name`.
+  /// Begins the section `name`: the fields that follow, up to leaveSection(), belong to it.
   virtual void enterSection(const std::string& name) { sections_.push_back(name); }
-  /// Ends the newest section.
+  /// Ends the section that was entered last.
   virtual void leaveSection() { sections_.pop_back(); }
 
  protected:
-  /// The name with its sections, e.g. `corners.threshold`.
+  /// The name including its sections, e.g. `corners.threshold`.
   std::string fullName(const std::string& name) const {
     std::string full;
     for (const auto& section : sections_) full += section + ".";
     return full + name;
   }
-  /// From the outermost section to the present one; empty outside of all.
+  /// The sections from the outermost to the current one; empty outside of all sections.
   const std::vector<std::string>& sections() const { return sections_; }
 
  private:
@@ -92,7 +93,7 @@ class ParameterVisitor {
   std::vector<std::string> sections_;
 };
 
-/// A field of enumeration type; each value with its name in configuration files.
+/// Visits a field of enumeration type. `names` pairs each value with its name in configuration files.
 template <class Enum>
 void visitEnum(ParameterVisitor& visitor, const std::string& name, Enum& value,
                const std::vector<std::pair<std::string, Enum>>& values, const std::string& doc,
@@ -107,7 +108,7 @@ void visitEnum(ParameterVisitor& visitor, const std::string& name, Enum& value,
   value = values[index].second;
 }
 
-/// A struct of parameters inside another one.
+/// Visits a parameter struct that is a member of another one.
 template <class Params>
 void visitSection(ParameterVisitor& visitor, const std::string& name, Params& params) {
   visitor.enterSection(name);

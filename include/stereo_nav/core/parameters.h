@@ -12,7 +12,7 @@ namespace stereo_nav {
 
 /// One line of documentation, as printed by the tools and written into docs/.
 struct ParameterDoc {
-  std::string name;           ///< with its sections, e.g. `corners.threshold`
+  std::string name;           ///< name including its sections, e.g. `corners.threshold`
   std::string type;           ///< bool, int, double, string or choice
   std::string default_value;  ///< the value in the struct when it was described
   std::string range;          ///< e.g. `1 to 255`
@@ -28,31 +28,31 @@ void checkRanges(const std::string& source, const Describe& describe);
 std::vector<ParameterDoc> document(const Describe& describe);
 }  // namespace internal
 
-/// The content of a text file. Throws ParameterError that says where the file was looked for.
+/// Returns the content of a text file. Throws a ParameterError that says where the file was looked for.
 std::string readTextFile(const std::string& path);
 
-/// Throws ParameterError that names `source` and the line of a syntax error.
+/// Parses YAML text. Throws a ParameterError that names `source` and the line of a syntax error.
 YAML::Node parseYaml(const std::string& text, const std::string& source);
 
-/// Parses a YAML file. Throws ParameterError that names the file and the line of a syntax error.
+/// Parses a YAML file. Throws a ParameterError that names the file and the line of a syntax error.
 YAML::Node loadYamlFile(const std::string& path);
 
-/// Overwrites those fields of `params` that `node` (a map, or empty) holds. Throws ParameterError on an
-/// unknown key, a wrong type or a value out of range; `source` is what the message calls the origin, e.g. a
-/// file name.
+/// Overwrites the fields of `params` that `node` (a map, or empty) holds. Throws ParameterError for an
+/// unknown key, a wrong type or a value out of range. Messages name the origin of the values by `source`,
+/// e.g. a file name.
 template <class Params>
 void readParameters(const YAML::Node& node, const std::string& source, Params& params) {
   internal::readYaml(node, source, [&params](ParameterVisitor& visitor) { params.describe(visitor); });
 }
 
-/// Checks values that were set in code. Throws ParameterError.
+/// Checks values that were set in code. Throws ParameterError if one is out of range.
 template <class Params>
 void validateParameters(const Params& params, const std::string& source) {
   Params copy = params;
   internal::checkRanges(source, [&copy](ParameterVisitor& visitor) { copy.describe(visitor); });
 }
 
-/// Every field with type, range, unit, default, and whether it can be changed live.
+/// Lists every field with its type, range, unit and default, and says whether it can be changed live.
 template <class Params>
 std::vector<ParameterDoc> documentParameters(const Params& params) {
   Params copy = params;

@@ -9,8 +9,8 @@
 
 namespace stereo_nav::estimation {
 
-/// Pose and velocity of the base as nav_msgs/Odometry wants them; covariances in the order x y z, then
-/// rotation about x y z.
+/// Pose and velocity of the base in the conventions of nav_msgs/Odometry. Covariances have the order x y z,
+/// then rotation about x y z.
 struct BaseEstimate {
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();  ///< pose of base_link in odom
   Matrix6d pose_covariance = Matrix6d::Zero();                    ///< axes of odom
@@ -18,14 +18,14 @@ struct BaseEstimate {
   Matrix6d twist_covariance = Matrix6d::Zero();                   ///< axes of base_link
 };
 
-/// Carries the camera's motion over to the base: T_odom_base = T_odom_start T_base_camera T_start_camera
+/// Converts the camera's motion to that of the base: T_odom_base = T_odom_start T_base_camera T_start_camera
 /// T_camera_base.
 class BaseOdometry {
  public:
-  /// Starts at the identity with the least covariance.
+  /// Starts at the identity with the smallest covariance.
   BaseOdometry(const UncertaintyParams& params, const Eigen::Isometry3d& T_base_camera);
 
-  /// For the motions to come.
+  /// Sets the parameters for all later motions.
   void setUncertainty(const UncertaintyParams& params) { covariance_.setUncertainty(params); }
 
   /// The odometry begins anew: its next first frame is taken at `T_odom_base`.

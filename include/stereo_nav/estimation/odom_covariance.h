@@ -8,7 +8,7 @@
 
 namespace stereo_nav::estimation {
 
-/// What the uncertainty of a motion is at least, and what it is while none is measured.
+/// Lower bounds of the uncertainty of a measured motion, and the uncertainty while no motion is measured.
 struct UncertaintyParams {
   double min_translation_sigma_m = 0.001;  ///< per frame and axis
   double min_rotation_sigma_rad = 0.0005;  ///< per frame and axis
@@ -31,7 +31,7 @@ class OdomCovariance {
   /// `T_base_camera` takes camera coordinates into those of the base.
   OdomCovariance(const UncertaintyParams& params, const Eigen::Isometry3d& T_base_camera);
 
-  /// For the motions to come.
+  /// Sets the parameters for all later motions.
   void setUncertainty(const UncertaintyParams& params) { params_ = params; }
 
   /// The pose is known with this covariance (axes of odom). Returns it with the floor of one motion added: it

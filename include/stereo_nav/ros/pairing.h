@@ -9,7 +9,7 @@
 
 namespace stereo_nav::ros_io {
 
-/// Indices into the lists of left and right image stamps, and when the images were taken.
+/// A pair: indices into the lists of left and right image stamps, and when the images were taken.
 struct StampPair {
   std::size_t left;                ///< index of the left stamp
   std::size_t right;               ///< index of the right stamp
@@ -18,10 +18,10 @@ struct StampPair {
   double rolling_shutter_s = 0.0;  ///< from the first row to the last
 };
 
-/// Which images of a recording belong together, in order of the left stamps; each image at most once.
-/// With `sync` messages they decide: an image belongs to a message by the pair's common stamp or by its own
-/// true stamp. Without, left and right pair by nearest stamp, up to half the left camera's median period
-/// apart, closest pairs first. Both lists of stamps must be in order of time.
+/// Pairs the images of a recording, each image at most once; the result is in order of the left stamps. Where
+/// there are `sync` messages, they decide: an image belongs to a message if it carries the pair's common
+/// stamp or its own true stamp. Without them, left and right are paired by nearest stamp, closest pairs
+/// first, up to half the left camera's median period apart. Both lists of stamps must be in order of time.
 std::vector<StampPair> pairStamps(const std::vector<ros::Time>& left, const std::vector<ros::Time>& right,
                                   const std::vector<StereoSync>& sync);
 

@@ -19,14 +19,14 @@
 
 namespace stereo_nav::ros_io {
 
-/// Which part of a recording is read, s.
+/// The part of a recording that is read, and how. Times are in seconds.
 struct RecordingOptions {
   double start_s = 0.0;                                         ///< after the first left image
-  double duration_s = std::numeric_limits<double>::infinity();  ///< from there on
-  std::optional<double> rolling_shutter_s;  ///< in place of what camera/sync says; 0: global shutter
+  double duration_s = std::numeric_limits<double>::infinity();  ///< counted from start_s
+  std::optional<double> rolling_shutter_s;  ///< replaces the value of camera/sync; 0: global shutter
 };
 
-/// One pair of raw images as recorded, grey, with the true exposure times.
+/// One recorded pair of raw images, converted to grey, with the true exposure times.
 struct RawPair {
   double left_time_s;        ///< when the left image was taken
   double right_time_s;       ///< when the right image was taken
@@ -35,14 +35,14 @@ struct RawPair {
   cv::Mat right;             ///< CV_8UC1
 };
 
-/// A bag with the topics of a stereo rig (`camera/{left,right}/{image_raw,camera_info}`, and when there are
-/// any `camera/sync`, `imu/data` or `imu_quat`, `tf_static`, ground truth), read without a master. Opening
-/// reads everything but the images; those are streamed. A prefix common to all topics (a namespace) is found
-/// by itself. Throws InputError: unreadable or damaged file, missing topics (says which there are), NaN in
-/// the IMU.
+/// A bag with the topics of a stereo rig: `camera/{left,right}/{image_raw,camera_info}` and, where recorded,
+/// `camera/sync`, `imu/data` or `imu_quat`, `tf_static` and ground truth. It is read without a ROS master.
+/// Opening reads everything but the images, which are streamed. A prefix common to all topics (a namespace)
+/// is detected. Throws InputError for an unreadable or damaged file, for missing topics (the message lists
+/// those that exist) and for NaN in the IMU's messages.
 class Recording {
  public:
-  /// Opens the bag and reads all but the images.
+  /// Opens the bag and reads everything but the images.
   Recording(const std::string& path, const RecordingOptions& options);
 
   /// The first camera_info of the left camera.
@@ -53,25 +53,26 @@ class Recording {
   std::size_t pairs() const { return pairs_.size(); }
   /// Number of images that belong to no pair.
   std::size_t unpairedImages() const { return unpaired_images_; }
-  /// All samples in order of time.
+  /// All IMU samples in order of time.
   const std::vector<ImuSample>& imu() const { return imu_; }
-  const std::string& imuFrame() const { return imu_frame_; }  ///< empty: none given, or no IMU
+  /// Frame of the IMU's messages; empty if there is no IMU or they name no frame.
+  const std::string& imuFrame() const { return imu_frame_; }
 
-  /// Pose of frame `source` in frame `target` by the recorded static transforms; nothing if they do not
-  /// connect them.
+  /// Pose of frame `source` in frame `target` from the recorded static transforms; nothing if these do not
+  /// connect the two frames.
   std::optional<Eigen::Isometry3d> transform(const std::string& target, const std::string& source) const;
 
-  /// Poses on a topic (nav_msgs/Odometry, geometry_msgs/PoseStamped or TransformStamped), and of which frame
-  /// they are (empty when the type does not say). Empty trajectory when the bag has no such topic and none
-  /// was named.
+  /// Poses of a topic (nav_msgs/Odometry, geometry_msgs/PoseStamped or TransformStamped) and the frame that
+  /// they describe, which is empty when the type does not name it. The trajectory is empty when the bag has
+  /// no such topic and none was required.
   struct GroundTruth {
     Trajectory trajectory;   ///< in order of time
-    std::string body_frame;  ///< of which the poses are
+    std::string body_frame;  ///< the frame that the poses describe
   };
   /// The ground truth on `topic`; throws InputError where it is `required` and missing.
   GroundTruth groundTruth(const std::string& topic, bool required) const;
 
-  /// Every pair once, in order of the left stamps. Throws InputError for an image that cannot be used.
+  /// Passes every pair once, in order of the left stamps. Throws InputError for an image that cannot be used.
   void forEachPair(const std::function<void(const RawPair&)>& handle) const;
 
  private:

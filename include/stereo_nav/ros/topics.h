@@ -1,7 +1,7 @@
 #pragma once
 
-/// Names that the nodes, the tools and the recordings share. All relative, so that a namespace holds a whole
-/// rig.
+/// Names that the nodes, the tools and the recordings share. All are relative, so that a namespace can hold a
+/// whole rig.
 namespace stereo_nav::ros_io::topics {
 
 constexpr const char* kLeftImage = "camera/left/image_raw";     ///< sensor_msgs/Image
@@ -10,10 +10,10 @@ constexpr const char* kLeftInfo = "camera/left/camera_info";    ///< sensor_msgs
 constexpr const char* kRightInfo = "camera/right/camera_info";  ///< sensor_msgs/CameraInfo
 constexpr const char* kSync = "camera/sync";                    ///< stereo_nav/StereoSync
 constexpr const char* kImu = "imu/data";                        ///< sensor_msgs/Imu
-/// The thesis' topic: orientation without header.
+/// The thesis' topic: orientation without a header.
 constexpr const char* kImuQuaternion = "imu_quat";
 constexpr const char* kGroundTruth = "ground_truth/odom";  ///< nav_msgs/Odometry
-/// Simulated recordings: the moments at which the robot passes the way-points of its path.
+/// In simulated recordings: the moments at which the robot passes the way-points of its path.
 constexpr const char* kWaypoint = "ground_truth/waypoint";
 constexpr const char* kTfStatic = "tf_static";  ///< tf2_msgs/TFMessage
 
@@ -23,7 +23,7 @@ namespace stereo_nav::ros_io::frames {
 
 constexpr const char* kOdom = "odom";       ///< where the odometry begins
 constexpr const char* kBase = "base_link";  ///< the robot: x forward, y left, z up
-/// Both cameras' images and infos carry it: image_geometry::StereoCameraModel asserts that the two are equal.
+/// Frame of both cameras' images and infos: image_geometry::StereoCameraModel asserts that the two are equal.
 constexpr const char* kLeftOptical = "camera_left_optical";
 constexpr const char* kImu = "imu_link";
 

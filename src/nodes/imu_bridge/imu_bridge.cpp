@@ -1,4 +1,4 @@
-// The imu_bridge node: a serial IMU module in, imu/data and imu_quat out.
+// The imu_bridge node reads a serial IMU module and publishes imu/data and imu_quat.
 #include "nodes/imu_bridge/imu_bridge_node.h"
 #include "ros/node_program.h"
 
@@ -6,7 +6,7 @@ namespace {
 
 int run() {
   stereo_nav::nodes::ImuBridgeNode node{ros::NodeHandle(), ros::NodeHandle("~")};
-  // A calibration waits in its service for a quarter of a minute; the rest goes on meanwhile.
+  // The service that calibrates takes a quarter of a minute; other callbacks are served meanwhile.
   ros::AsyncSpinner spinner(3);
   spinner.start();
   node.run();

@@ -15,7 +15,7 @@ namespace stereo_nav::nodes {
 namespace {
 
 constexpr double kRepeat_s = 10.0;
-/// Beyond the time of the measurement itself.
+/// Time that the service waits beyond the duration of the measurement.
 constexpr double kCalibrationPatience_s = 5.0;
 
 ros_io::ImuBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
@@ -27,7 +27,7 @@ ros_io::ImuBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
   return params;
 }
 
-/// A file that does not exist yet is one that imu/calibrate_gyro will write.
+/// Reads the calibration. The file need not exist yet: imu/calibrate_gyro writes it.
 imu::ImuCalibration readCalibration(const std::string& path) {
   if (path.empty() || !std::filesystem::exists(path)) return {};
   return imu::loadCalibration(path);
@@ -67,8 +67,8 @@ void ImuBridgeNode::run() {
   calibrated_.notify_all();
 }
 
-/// Stamps are made on the steady clock, which no clock synchronisation sets; the step to ROS time is measured
-/// anew for each.
+/// Stamps come from the steady clock, which clock synchronisation does not set; its offset to ROS time is
+/// measured for each stamp.
 ros::Time ImuBridgeNode::rosTime(double steady_s) {
   ros::Time stamp = ros::Time::now() - ros::Duration(imu::steadyNow_s() - steady_s);
   const ros::Duration one_microsecond(0, 1000);
@@ -114,8 +114,7 @@ bool ImuBridgeNode::calibrateGyro(std_srvs::Trigger::Request& /*request*/,
                                   std_srvs::Trigger::Response& response) {
   if (params_.device.protocol != imu::Protocol::kRaw) {
     response.message =
-        "this module sends angles, not rates: it calibrates its gyroscope itself, when it is switched on at "
-        "rest";
+        "this module sends angles, not rates: it calibrates its own gyroscope when it is switched on at rest";
     return true;
   }
   std::unique_lock<std::mutex> lock(mutex_);
@@ -132,7 +131,7 @@ bool ImuBridgeNode::calibrateGyro(std_srvs::Trigger::Request& /*request*/,
   return true;
 }
 
-/// The mutex is held.
+/// The caller holds the mutex.
 void ImuBridgeNode::finishCalibration(const imu::GyroCalibrator::Result& result,
                                       std_srvs::Trigger::Response& response) {
   response.success = static_cast<unsigned char>(result.accepted);
@@ -155,7 +154,7 @@ bool ImuBridgeNode::resetYaw(std_srvs::Trigger::Request& /*request*/, std_srvs::
   const std::lock_guard<std::mutex> lock(mutex_);
   estimator_.resetYaw();
   response.success = 1;
-  response.message = "the present heading is zero now";
+  response.message = "the current heading is now zero";
   return true;
 }
 
@@ -164,7 +163,7 @@ void ImuBridgeNode::watch(const ros::WallTimerEvent& /*event*/) {
   reportState();
 }
 
-/// Says changes at once, and what is wrong again every ten seconds.
+/// Logs changes at once, and repeats a problem every ten seconds.
 void ImuBridgeNode::reportState() {
   const imu::ImuDeviceStatus status = device_.status();
   const bool good = status.state == imu::LinkState::kStreaming;

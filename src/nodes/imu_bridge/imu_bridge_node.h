@@ -16,12 +16,12 @@ namespace stereo_nav::nodes {
 
 /// A serial IMU module on ROS topics: imu/data, imu/data_raw (raw modules), imu_quat, chatter.
 ///
-/// run() reads the module in the calling thread; services and diagnostics are answered by others.
+/// run() reads the module in the calling thread; services and diagnostics run in other threads.
 class ImuBridgeNode {
  public:
   /// Throws ParameterError.
   ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
-  /// Until ROS shuts down.
+  /// Works until ROS shuts down.
   void run();
 
  private:
@@ -36,7 +36,7 @@ class ImuBridgeNode {
   void reportState();
 
   ros::NodeHandle handle_, private_handle_;
-  const ros_io::ImuBridgeParams params_;  ///< as they were at the start
+  const ros_io::ImuBridgeParams params_;  ///< values at the start
   imu::ImuDevice device_;
   ros::Publisher data_, data_raw_, quaternion_, chatter_;
   ros::ServiceServer calibrate_gyro_, reset_yaw_;
@@ -45,7 +45,7 @@ class ImuBridgeNode {
   ros::Time last_stamp_;
 
   std::mutex mutex_;              ///< guards estimator, calibrator and live_
-  ros_io::ImuBridgeParams live_;  ///< as dynamic_reconfigure has set them
+  ros_io::ImuBridgeParams live_;  ///< current values, as set by dynamic_reconfigure
   std::condition_variable calibrated_;
   imu::ImuEstimator estimator_;
   std::optional<imu::GyroCalibrator> calibrator_;

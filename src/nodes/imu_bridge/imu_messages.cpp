@@ -9,7 +9,7 @@ void setDiagonal(Covariance& covariance, double xx, double yy, double zz) {
   covariance = {xx, 0, 0, 0, yy, 0, 0, 0, zz};
 }
 
-/// As REP-145 and sensor_msgs/Imu mark a part that the module does not deliver.
+/// Marks a quantity that the module does not deliver, as REP-145 and sensor_msgs/Imu prescribe.
 void setAbsent(Covariance& covariance) {
   covariance.fill(0.0);
   covariance[0] = -1.0;

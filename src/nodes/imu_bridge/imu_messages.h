@@ -9,8 +9,8 @@ namespace stereo_nav::nodes {
 
 geometry_msgs::Quaternion toMessage(const Eigen::Quaterniond& q);
 
-/// With the standard deviations and the frame of `params`. What the module does not deliver is marked as
-/// REP-145 and sensor_msgs/Imu ask: -1 in the first element of its covariance.
+/// Makes a message with the standard deviations and the frame of `params`. Quantities that the module does
+/// not deliver have -1 as the first element of their covariance, as REP-145 and sensor_msgs/Imu prescribe.
 sensor_msgs::Imu toMessage(const imu::ImuEstimate& estimate, const ros_io::ImuBridgeParams& params,
                            ros::Time stamp);
 

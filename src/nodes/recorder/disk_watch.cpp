@@ -8,7 +8,7 @@ namespace stereo_nav::nodes {
 namespace {
 
 constexpr double kWindow_s = 10.0;
-constexpr double kSilence_s = 5.0;  // the recorder writes chunks of under a second of images
+constexpr double kSilence_s = 5.0;  // the recorder writes chunks that hold less than a second of images
 
 constexpr double kMega = 1e6, kGiga = 1e9;
 
@@ -38,7 +38,7 @@ DiskWatch::State DiskWatch::state() const {
   if (bytesFree() <= reserve_bytes_) return State::kFull;
   const auto left = secondsLeft();
   if (left && *left < warn_before_s_) return State::kLow;
-  // The first seconds' rate is that of connecting.
+  // In the first seconds the rate is too low, since topics are still being connected.
   if (samples_.back().time_s - samples_.front().time_s < kSilence_s) return State::kStarting;
   return left ? State::kGood : State::kSilent;
 }
@@ -50,16 +50,16 @@ std::string DiskWatch::text() const {
       return "recording starts";
     case State::kFull:
       return fmt::format(
-          "the disk is full: {:.2f} GB free, of which {:.2f} GB are kept; nothing more is recorded. Delete old "
-          "recordings or record to another disk",
+          "the disk is full: {:.2f} GB free, of which {:.2f} GB are reserved; nothing more is recorded. "
+          "Delete old recordings or record to another disk",
           free_gb, static_cast<double>(reserve_bytes_) / kGiga);
     case State::kSilent:
-      return "nothing is written: no message comes. Do the cameras run? Look at `rostopic hz "
+      return "nothing is written, because no message arrives. Do the cameras run? Look at `rostopic hz "
              "camera/left/image_raw` and /diagnostics";
     case State::kLow:
       return fmt::format(
-          "the disk is full in {:.1f} min at {:.1f} MB/s ({:.1f} GB free): end the recording soon, delete old "
-          "ones, or record mono8 images",
+          "the disk is full in {:.1f} min at {:.1f} MB/s ({:.1f} GB free): end the recording soon, delete "
+          "old ones, or record mono8 images",
           *secondsLeft() / 60.0, rate_mb_s, free_gb);
     case State::kGood:
       break;

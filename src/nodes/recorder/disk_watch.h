@@ -10,8 +10,8 @@ namespace stereo_nav::nodes {
 /// How fast a recording grows and how long the disk lasts. Knows no files and no clock.
 class DiskWatch {
  public:
-  /// `reserve_bytes`: what the recorder leaves free. `warn_before_s`: the disk is low when it lasts less
-  /// long.
+  /// `reserve_bytes`: space that the recorder leaves free. `warn_before_s`: the disk is low when it will be
+  /// full in less than this time.
   DiskWatch(std::uint64_t reserve_bytes, double warn_before_s)
       : reserve_bytes_(reserve_bytes), warn_before_s_(warn_before_s) {}
 
@@ -19,13 +19,13 @@ class DiskWatch {
 
   enum class State { kStarting, kGood, kSilent, kLow, kFull };
   State state() const;
-  /// Bytes a second over the last ten seconds; 0 before there are two samples.
+  /// Bytes per second over the last ten seconds; 0 before there are two samples.
   double rate() const;
-  /// Seconds until only the reserve is left; nothing while nothing is written.
+  /// Seconds until only the reserve is left; no value while nothing is written.
   std::optional<double> secondsLeft() const;
   std::uint64_t bytesWritten() const { return samples_.empty() ? 0 : samples_.back().written; }
   std::uint64_t bytesFree() const { return samples_.empty() ? 0 : samples_.back().free; }
-  /// In words, with the remedy where something is wrong.
+  /// The state in words, with the remedy where something is wrong.
   std::string text() const;
 
  private:

@@ -24,12 +24,12 @@ RecorderParams readParams(const ros::NodeHandle& private_handle) {
   return params;
 }
 
-/// Absolute, so that what is said of it can be found: roslaunch starts nodes in ROS_HOME.
+/// Absolute path of the folder, so that messages about it are clear: roslaunch starts nodes in ROS_HOME.
 fs::path makeFolder(const RecorderParams& params) {
   const fs::path folder = fs::absolute(params.folder);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw ParameterError("~folder " + folder.string() + " cannot be made: " + error.message());
+  if (error) throw ParameterError("~folder " + folder.string() + " cannot be created: " + error.message());
   const auto space = fs::space(folder, error);
   const double free_gb = static_cast<double>(space.available) / kBytesPerGigabyte;
   if (!error && free_gb < params.reserve_gb) {
@@ -42,7 +42,7 @@ fs::path makeFolder(const RecorderParams& params) {
   return folder;
 }
 
-/// Everything that is needed to run the odometry on the recording later, and what the robot said meanwhile.
+/// Everything that is needed to run the odometry on the recording later, and the robot's diagnostics.
 std::vector<std::string> recordedTopics(const RecorderParams& params) {
   std::vector<std::string> names = {topics::kLeftImage, topics::kRightImage,    topics::kLeftInfo,
                                     topics::kRightInfo, topics::kSync,          topics::kImu,
@@ -61,17 +61,16 @@ std::uint64_t toBytes(double gigabytes) {
 }  // namespace
 
 void RecorderParams::describe(ParameterVisitor& visitor) {
-  visitor.text("folder", folder, "where the bags go; made if it does not exist");
+  visitor.text("folder", folder, "folder for the bags; created if it does not exist");
   visitor.text("prefix", prefix, "how the bags' names begin; date, time and number follow");
-  visitor.text("more_topics", more_topics, "topics to record beside the sensors, with commas between");
+  visitor.text("more_topics", more_topics, "topics to record besides the sensors, separated by commas");
   visitor.integer("split_mb", split_mb, {16, 1000000}, "MB",
-                  "a bag that has this size is closed, the next begins");
-  visitor.integer("buffer_mb", buffer_mb, {16, 100000}, "MB",
-                  "memory for what the disk does not take at once");
+                  "a bag of this size is closed and the next one begins");
+  visitor.integer("buffer_mb", buffer_mb, {16, 100000}, "MB", "memory for messages that wait to be written");
   visitor.real("reserve_gb", reserve_gb, {0.01, 10000.0}, "GB",
-               "left free on the disk: recording stops there");
+               "space that is left free on the disk: recording stops when it is reached");
   visitor.real("warn_before_min", warn_before_min, {0.1, 1440.0}, "min",
-               "warn when the disk lasts less long");
+               "warn when the disk will be full in less than this time");
 }
 
 RecorderNode::RecorderNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
@@ -96,13 +95,13 @@ int RecorderNode::run() {
   options.buffer_size = static_cast<std::uint32_t>(params_.buffer_mb) * kMega;
   options.min_space = toBytes(params_.reserve_gb);
   options.min_space_str = std::to_string(params_.reserve_gb) + "G";
-  options.repeat_latched = true;  // each bag stands alone: tf_static is in all of them
+  options.repeat_latched = true;  // each bag can be used alone: tf_static is in all of them
   options.transport_hints.tcpNoDelay();
   rosbag::Recorder recorder(options);
   return recorder.run();
 }
 
-/// Of all recordings of this name. A bag may be renamed while the folder is read.
+/// Size of all recordings with this prefix. A bag may be renamed while the folder is read.
 std::uint64_t RecorderNode::recordedBytes() const {
   std::uint64_t bytes = 0;
   std::error_code error;
@@ -118,7 +117,7 @@ void RecorderNode::watch(const ros::WallTimerEvent& /*event*/) {
   std::error_code error;
   const auto space = fs::space(folder_, error);
   if (error) {
-    unreadable_ = "the folder " + folder_.string() + " cannot be looked at: " + error.message() +
+    unreadable_ = "the folder " + folder_.string() + " cannot be read: " + error.message() +
                   "; was its disk unplugged, or the folder removed?";
     updater_.update();
     ROS_ERROR_STREAM_THROTTLE(kRepeat_s, unreadable_);

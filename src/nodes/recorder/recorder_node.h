@@ -25,13 +25,13 @@ struct RecorderParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Records what the sensors deliver into bags of limited size, by rosbag's own recorder in this process, and
-/// tells in log and diagnostics how fast the disk fills.
+/// Records the sensors' topics into bags of limited size, with rosbag's own recorder in this process, and
+/// reports in log and diagnostics how fast the disk fills.
 class RecorderNode {
  public:
-  /// Makes the folder. Throws ParameterError where that fails or the disk is full already.
+  /// Creates the folder. Throws ParameterError if that fails or the disk is already full.
   RecorderNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
-  /// Until ROS shuts down; the bags are closed then. Returns rosbag's status.
+  /// Records until ROS shuts down, then closes the bags. Returns rosbag's status.
   int run();
 
  private:
@@ -42,8 +42,8 @@ class RecorderNode {
   ros::NodeHandle handle_;
   RecorderParams params_;
   std::filesystem::path folder_;
-  std::string unreadable_;      ///< why the folder cannot be looked at; empty while it can
-  std::uint64_t bytes_before_;  ///< of earlier recordings in the same folder
+  std::string unreadable_;      ///< why the folder cannot be read; empty while it can
+  std::uint64_t bytes_before_;  ///< size of earlier recordings in the same folder
   DiskWatch disk_;
   DiskWatch::State said_ = DiskWatch::State::kStarting;
   ros::WallTime said_at_;

@@ -1,4 +1,4 @@
-// The rig file checked as a whole, and where its sensors sit published as static transforms.
+// Checks the whole rig file and publishes the mounting of its sensors as static transforms.
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <tf2_eigen/tf2_eigen.h>
@@ -15,7 +15,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// Sections that other nodes read are checked here, too: wherever a mistake is, this node names it.
+/// Sections that other nodes read are checked here, too, so that this node reports every mistake in the file.
 void checkSections(const ros::NodeHandle& private_handle) {
   ros_io::CaptureSetup cameras;
   cameras.read({ros_io::rigSource(private_handle, rig_sections::kCameras)});

@@ -7,7 +7,7 @@
 
 namespace stereo_nav::nodes {
 
-/// Parameters of rig_transforms: names of the frames; where they are is in the rig file `~rig`.
+/// Parameters of rig_transforms: the names of the frames. Their poses are in the rig file `~rig`.
 struct RigTransformsParams {
   std::string base_frame = ros_io::frames::kBase;
   std::string camera_frame = ros_io::frames::kLeftOptical;

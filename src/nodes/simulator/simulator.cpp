@@ -1,4 +1,4 @@
-// A simulated robot at real time, in place of stereo_capture and imu_bridge.
+// A robot simulated in real time, in place of stereo_capture and imu_bridge.
 #include <filesystem>
 #include <sstream>
 
@@ -14,13 +14,13 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// What of a rig file the simulated devices have: calibration and mounting.
+/// The parts of a rig file that the simulated devices use: calibration and mounting.
 struct SimulatedRig {
   sim::StereoCalibrationPair calibration;
   Eigen::Isometry3d T_base_imu = Eigen::Isometry3d::Identity();
 };
 
-/// Of one camera of the rig file.
+/// Calibration of one camera of the rig file.
 auto loadCalibration(const std::string& url, const std::string& side) {
   const std::string path = ros_io::pathOfUrl(url.empty() ? ros_io::kDefaultCalibrationUrl : url, side);
   if (url.empty() && !std::filesystem::exists(path)) {
@@ -32,7 +32,7 @@ auto loadCalibration(const std::string& url, const std::string& side) {
   return sim::loadCameraCalibration(path);
 }
 
-/// The thesis' rig where `~rig` names no file; cameras sit where the scenario says then.
+/// Without `~rig`, the thesis' rig with its cameras at the poses of the scenario.
 SimulatedRig readRig(const ros::NodeHandle& private_node, sim::RigParams& cameras) {
   const auto rig = private_node.param<std::string>("rig", "");
   if (rig.empty()) return {sim::loadStereoCalibration(ros_io::thesisCalibrationFolder())};
@@ -52,7 +52,7 @@ std::vector<std::string> splitSettings(const std::string& text) {
   return settings;
 }
 
-/// Beside the simulator's own parameters: the files `~rig` and `~disparity_config`.
+/// Besides the simulator's own parameters there are the files `~rig` and `~disparity_config`.
 int run() {
   ros::NodeHandle node, private_node("~");
   SimulatorParams params;

@@ -60,7 +60,7 @@ void SimulatorNode::renderAhead() {
   const auto& pairs = simulation_.pairs();
   while (rendering_.size() < threads && next_to_render_ < pairs.size()) {
     const std::size_t index = next_to_render_++;
-    // One that cannot be ready in time is not begun: rendering it would make the next ones late, too.
+    // A pair that cannot be ready in time is skipped: rendering it would make the next ones late, too.
     if (pairs[index].left_s < now_s() + rendering_s_ - 0.5 * lateTolerance_s()) {
       countLate();
       continue;
@@ -111,7 +111,7 @@ void SimulatorNode::run() {
     const ros_io::PairMessages pair = rendering_.front().get();
     rendering_.pop_front();
     renderAhead();
-    // IMU messages go out in steps much shorter than their usual period.
+    // This step is much shorter than the usual period of IMU messages.
     for (double now = now_s(); now < pair.available_s && ros::ok(); now = now_s()) {
       publishUntil(now);
       ros::WallDuration(std::min(0.004, pair.available_s - now)).sleep();
@@ -129,13 +129,13 @@ void SimulatorNode::run() {
 
 void SimulatorParams::describe(ParameterVisitor& visitor) {
   visitor.text("scenario", scenario, "a file, or the name of one in config/scenarios");
-  visitor.text("settings", settings, "changes to the scenario: NAME=VALUE, with semicolons between");
-  visitor.integer("seed", seed, {0, 1000000000}, "", "of noise, jitter and IMU errors");
-  visitor.integer("threads", threads, {1, 64}, "", "for rendering");
+  visitor.text("settings", settings, "changes to the scenario: NAME=VALUE, separated by semicolons");
+  visitor.integer("seed", seed, {0, 1000000000}, "", "seed of noise, jitter and IMU errors");
+  visitor.integer("threads", threads, {1, 64}, "", "threads that render");
   visitor.real("start_delay_s", start_delay_s, {0.0, 3600.0}, "s",
                "from the start of the node to the first pair");
   visitor.flag("publish_tf_static", publish_tf_static,
-               "where the sensors sit; off where rig_transforms tells it");
+               "publish where the sensors sit; off where rig_transforms does");
   visitor.flag("load_image_proc", load_image_proc, "rectify and compute disparity in this process");
 }
 

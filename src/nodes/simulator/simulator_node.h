@@ -27,15 +27,15 @@ struct SimulatorParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Plays a simulation at real time on the topics of stereo_capture and imu_bridge, plus the ground truth.
-/// Pairs are rendered ahead of their time on `threads` threads; a pair that is not ready within two periods
-/// of its time is dropped, counted and said.
+/// Plays a simulation in real time on the topics of stereo_capture and imu_bridge, and publishes the ground
+/// truth. Pairs are rendered ahead of their time on `threads` threads. A pair that is not ready within two
+/// periods of its time is dropped, counted and reported.
 class SimulatorNode {
  public:
   SimulatorNode(ros::NodeHandle& node, const sim::Simulation& simulation, const SimulatorParams& params,
                 const Eigen::Isometry3d& T_base_imu);
 
-  /// Returns when the path is driven or ROS shuts down.
+  /// Returns at the end of the path or when ROS shuts down.
   void run();
 
  private:

@@ -1,6 +1,5 @@
-// Holds a paused `rosbag play` until every subscriber of the graph is connected, then lets it run once. A
-// subscriber that connects later misses what was published before; with a chain of nodelets that is the first
-// few frames.
+// Waits until every subscriber of the graph is connected, then starts a paused `rosbag play`. A subscriber
+// that connects later misses earlier messages; a chain of nodelets would miss the first few frames.
 #include <std_srvs/SetBool.h>
 
 #include <map>
@@ -18,8 +17,8 @@ using Connection = std::pair<std::string, std::string>;  // topic, subscribing n
 using NodesByTopic = std::map<std::string, std::vector<std::string>>;
 
 constexpr double kPoll_s = 0.1;
-constexpr int kSteadyPolls =
-    5;  // the graph must look the same this often: lazy nodelets subscribe one after the other
+/// The graph must be unchanged in this many observations: lazy nodelets subscribe one after the other.
+constexpr int kSteadyPolls = 5;
 
 NodesByTopic readNodes(XmlRpc::XmlRpcValue& list) {
   NodesByTopic nodes;
@@ -30,7 +29,7 @@ NodesByTopic readNodes(XmlRpc::XmlRpcValue& list) {
   return nodes;
 }
 
-/// What the publisher itself says of its established connections.
+/// The established connections of a publisher, as it reports them itself.
 std::set<Connection> connectionsOf(const std::string& node) {
   std::set<Connection> connections;
   XmlRpc::XmlRpcValue bus;
@@ -45,10 +44,10 @@ std::set<Connection> connectionsOf(const std::string& node) {
 
 struct Graph {
   std::set<Connection> established;
-  std::set<std::string> missing;  ///< what is still to come, in words
+  std::set<std::string> missing;  ///< connections that are still missing, in words
 };
 
-/// What has to be there before playback.
+/// Topics that must be connected before playback.
 struct Wanted {
   std::vector<std::string> topics;         ///< with a publisher and a subscriber
   std::vector<std::string> if_subscribed;  ///< with a publisher, if anybody subscribes
@@ -85,7 +84,7 @@ Graph lookAt(const Wanted& wanted) {
   return graph;
 }
 
-/// Returns what was still missing when the time was over; empty if all is connected.
+/// Returns the connections that were still missing when the time was over; empty if all are connected.
 std::set<std::string> waitForGraph(const Wanted& wanted, double timeout_s) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(timeout_s);
   Graph before;
@@ -116,7 +115,7 @@ int run() {
   const auto player = private_handle.param<std::string>("player", "player");
 
   auto pause = handle.serviceClient<std_srvs::SetBool>(player + "/pause_playback");
-  while (ros::ok() && !pause.exists()) ros::WallDuration(kPoll_s).sleep();  // the ROS clock stands still yet
+  while (ros::ok() && !pause.exists()) ros::WallDuration(kPoll_s).sleep();  // the ROS clock does not run yet
   const std::set<std::string> missing = waitForGraph(wanted, timeout_s);
   if (!ros::ok()) return 0;
   for (const auto& connection : missing) {
@@ -126,7 +125,7 @@ int run() {
   std_srvs::SetBool request;
   request.request.data = static_cast<std::uint8_t>(false);
   if (!pause.call(request)) {
-    ROS_ERROR("%s does not let itself be started: it must be `rosbag play --pause`", player.c_str());
+    ROS_ERROR("%s cannot be started by its service: it must be `rosbag play --pause`", player.c_str());
     return 1;
   }
   ROS_INFO("all connected, playback starts");

@@ -10,7 +10,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-constexpr std::uint32_t kQueue = 4;  // short: a slow subscriber gets the newest images
+constexpr std::uint32_t kQueue = 4;  // short, so that a slow subscriber gets the newest images
 constexpr const char* kPackageUrl = "package://stereo_nav/";
 
 }  // namespace
@@ -47,9 +47,9 @@ void CameraPublisher::publish(camera::Frame& frame, const ros::Time& stamp) {
 std::string CameraPublisher::calibrationWarning() const {
   if (url_.rfind(kPackageUrl, 0) != 0) return {};
   return name_ + " camera: " + url_ +
-         " is the example that comes with the package, of the thesis' own camera: any other one measures "
-         "wrong distances with it, and the calibrator's COMMIT writes over it. Take `calibration` out of the "
-         "rig, or name a file of your own there, and calibrate (docs/calibration.md)";
+         " is the example that comes with the package, for the thesis' own camera: with any other camera it "
+         "gives wrong distances, and the calibrator's COMMIT overwrites it. Remove `calibration` from the "
+         "rig file, or name a file of your own there, and calibrate (docs/calibration.md)";
 }
 
 std::string CameraPublisher::urlText() {
@@ -59,7 +59,7 @@ std::string CameraPublisher::urlText() {
 std::string CameraPublisher::calibrationProblem(int width, int height) {
   const std::string remedy =
       "; calibrate the cameras (docs/capture.md tells how) or give the right file as `calibration` in the "
-      "rig. Raw images are published all the same, rectified ones and disparity are not";
+      "rig. Raw images are published nevertheless, rectified images and disparity are not";
   if (!calibration_.validateURL(url_)) {
     return name_ + " camera: the calibration URL " + url_ +
            " is not of the form file:///path or package://package/path" + remedy;

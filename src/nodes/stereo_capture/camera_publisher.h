@@ -12,20 +12,21 @@
 namespace stereo_nav::nodes {
 
 /// One camera's topics, `image_raw` and `camera_info`, and its calibration with the service
-/// `set_camera_info`. Images flow without a calibration, too; camera_info then holds their size only.
+/// `set_camera_info`. Images are published without a calibration, too; camera_info then holds only their
+/// size.
 class CameraPublisher {
  public:
-  /// `handle` of the camera's namespace, e.g. camera/left. An empty `calibration_url` means
-  /// file://${ROS_HOME}/camera_info/<name>.yaml, where the calibration service saves.
+  /// `handle` is that of the camera's namespace, e.g. camera/left. An empty `calibration_url` means
+  /// file://${ROS_HOME}/camera_info/<name>.yaml, to which the calibration service saves.
   CameraPublisher(const ros::NodeHandle& handle, const std::string& name, const std::string& calibration_url,
                   const std::string& frame_id);
 
-  /// Takes the image's memory.
+  /// Publishes an image; takes over its memory.
   void publish(camera::Frame& frame, const ros::Time& stamp);
 
-  /// What is wrong with the calibration for images of this size, with the remedy; empty when nothing is.
+  /// The problem with the calibration for images of this size, with the remedy; empty when there is none.
   std::string calibrationProblem(int width, int height);
-  /// What to know of a calibration that is good by itself, with the remedy; empty when there is nothing.
+  /// A warning about a calibration that is valid in itself, with the remedy; empty when there is none.
   std::string calibrationWarning() const;
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-/// Slower than this share of the wanted rate is worth a warning.
+/// A rate below this share of the requested one causes a warning.
 constexpr double kSlow = 0.8;
 
 const char* likelyCause(const camera::CameraStatus& camera, double wanted_rate_hz) {
@@ -74,8 +74,9 @@ void CaptureDiagnostics::describePairs(Status& status) {
   const auto& alone = stereo.pairing.without_partner;
   status.summary(DiagnosticStatus::OK, "Pairs are coming");
   if (stereo.pair_rate_hz == 0.0) {
-    status.summary(DiagnosticStatus::ERROR,
-                   "No pairs: see the cameras; if both deliver, max_skew_s is too small");
+    status.summary(
+        DiagnosticStatus::ERROR,
+        "No pairs: look at the status of the cameras; if both deliver images, max_skew_s is too small");
   } else if (stereo.pair_rate_hz < kSlow * std::min(stereo.left.rate_hz, stereo.right.rate_hz)) {
     status.summary(
         DiagnosticStatus::WARN,

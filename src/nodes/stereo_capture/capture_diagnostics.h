@@ -10,14 +10,14 @@
 
 namespace stereo_nav::nodes {
 
-/// What the capture node tells on /diagnostics: one status for each camera and one for their pairs.
+/// The capture node's reports on /diagnostics: one status for each camera and one for their pairs.
 class CaptureDiagnostics {
  public:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
   struct Sources {
     std::function<camera::StereoStatus()> status;
-    /// What is wrong with a camera's calibration; empty when nothing is.
+    /// The problem with a camera's calibration; empty when there is none.
     std::function<std::string(camera::Side)> calibration_problem;
     std::function<std::string(camera::Side)> calibration_warning;
     double wanted_rate_hz = 0.0;
@@ -25,7 +25,7 @@ class CaptureDiagnostics {
 
   CaptureDiagnostics(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, Sources sources);
 
-  /// Publishes when it is time to.
+  /// Publishes when the next report is due.
   void update() { updater_.update(); }
 
  private:

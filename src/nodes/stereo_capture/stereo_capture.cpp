@@ -1,4 +1,4 @@
-// The stereo_capture node: two webcams in, pairs of images out.
+// The stereo_capture node reads two webcams and publishes pairs of images.
 #include "nodes/stereo_capture/stereo_capture_node.h"
 #include "ros/node_program.h"
 

@@ -12,7 +12,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// Names in the private namespace that belong to others.
+/// Names in the private namespace that are read elsewhere.
 const std::set<std::string> kForeignParameters = {"disparity_config", "image_transport", "num_worker_threads",
                                                   "diagnostic_period"};
 
@@ -59,8 +59,7 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
   if (ros::Time::isSimTime()) {
     ROS_ERROR(
         "/use_sim_time is set, but live cameras stamp with this computer's clock: the stamps will not fit. "
-        "Use "
-        "`rosparam set /use_sim_time false` before starting any node");
+        "Use `rosparam set /use_sim_time false` before starting any node");
   }
   CaptureDiagnostics::Sources sources;
   sources.status = [this] { return camera_->status(); };
@@ -96,7 +95,7 @@ void StereoCaptureNode::publish(camera::StereoImages images) {
   const ros::Time left_time = toRosTime(clock_.toRos(left.time_ns));
   const ros::Time right_time = toRosTime(clock_.toRos(right.time_ns));
   const bool common = params_.stamps == camera::CaptureParams::Stamps::kCommon;
-  // First what says how the images belong together: then nobody has to wait for it.
+  // camera/sync, which relates the images, is published first, so that no subscriber has to wait for it.
   publishSync(images, left_time, right_time);
   left_publisher_.publish(left, left_time);
   right_publisher_.publish(right, common ? left_time : right_time);

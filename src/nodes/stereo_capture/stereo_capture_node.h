@@ -16,7 +16,8 @@
 
 namespace stereo_nav::nodes {
 
-/// Two cameras in, pairs of images out: camera/{left,right}/{image_raw,camera_info} and camera/sync.
+/// Reads two cameras and publishes pairs of images: camera/{left,right}/{image_raw,camera_info} and
+/// camera/sync.
 class StereoCaptureNode {
  public:
   /// Reads all parameters. Throws ParameterError.
@@ -37,8 +38,8 @@ class StereoCaptureNode {
   ros::NodeHandle handle_;
   ros::NodeHandle private_handle_;
   ros_io::CaptureSetup setup_;
-  const camera::CaptureParams& params_;  ///< of setup_
-  const std::string& frame_id_;          ///< of setup_
+  const camera::CaptureParams& params_;  ///< part of setup_
+  const std::string& frame_id_;          ///< part of setup_
   CameraPublisher left_publisher_;
   CameraPublisher right_publisher_;
   ros::Publisher sync_publisher_;

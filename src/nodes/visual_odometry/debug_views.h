@@ -10,15 +10,15 @@
 
 namespace stereo_nav::nodes {
 
-/// Left image with each feature in the colour of its fate and a line from where it was before: green inlier,
-/// red rejected, yellow tracked, blue without depth, white newly detected. CV_8UC3, BGR.
+/// Left image in which each feature has the colour of its result and a line from its previous position: green
+/// inlier, red rejected, yellow tracked, blue without depth, white newly detected. CV_8UC3, BGR.
 cv::Mat drawFeatures(const cv::Mat& left, const odometry::FrameResult& result);
 
 /// Features of known depth: x, y, z (left optical frame, m), rgb (the colours of drawFeatures) and id.
 sensor_msgs::PointCloud2 featureCloud(const std_msgs::Header& header,
                                       const std::vector<odometry::FeatureReport>& features);
 
-/// Disparity in colours, near red, far blue, unknown black. CV_8UC3, BGR.
+/// Disparity in colours: near is red, far is blue, unknown is black. CV_8UC3, BGR.
 cv::Mat colourDisparity(const cv::Mat& disparity_px);
 
 }  // namespace stereo_nav::nodes

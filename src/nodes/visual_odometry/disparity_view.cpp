@@ -19,11 +19,11 @@ cv::Mat mapOf(const stereo_msgs::DisparityImage& message) {
                     image.step >= image.width * sizeof(float) &&
                     image.data.size() >= static_cast<std::size_t>(image.step) * image.height;
   if (!fits) return {};
-  // The Mat only reads; OpenCV has no constructor for constant data.
+  // The Mat is only read; OpenCV has no constructor for constant data.
   const cv::Mat shared(static_cast<int>(image.height), static_cast<int>(image.width), CV_32FC1,
                        const_cast<unsigned char*>(image.data.data()), image.step);
   cv::Mat map = shared.clone();
-  constexpr double kHalfStep = 0.5;  // what is unknown lies a whole pixel below the smallest disparity
+  constexpr double kHalfStep = 0.5;  // unknown pixels lie a whole pixel below the smallest disparity
   map.setTo(-1.0F, map < std::max(0.0, message.min_disparity - kHalfStep));
   return map;
 }
@@ -32,7 +32,7 @@ cv::Mat mapOf(const stereo_msgs::DisparityImage& message) {
 
 DisparityView::DisparityView(const ros::NodeHandle& handle)
     : handle_(handle), transport_(handle_), publisher_(transport_.advertise("vo/disparity_view", 2)) {
-  // All in the thread of the node's callbacks; those of connections come from others.
+  // All of this runs in the thread of the node's callbacks; connection callbacks come from other threads.
   timer_ = handle_.createWallTimer(ros::WallDuration(kLookPeriod_s),
                                    [this](const ros::WallTimerEvent&) { followSubscribers(); });
 }

@@ -6,9 +6,9 @@
 
 namespace stereo_nav::nodes {
 
-/// camera/disparity in colours on vo/disparity_view, since rviz cannot show a DisparityImage. Whether the
-/// odometry itself uses the disparity plays no part: it is subscribed, and so computed, only while somebody
-/// looks.
+/// camera/disparity in colours on vo/disparity_view, since rviz cannot show a DisparityImage. Independent of
+/// whether the odometry uses the disparity: this view subscribes to it, and so has it computed, only while
+/// the view has subscribers.
 class DisparityView {
  public:
   explicit DisparityView(const ros::NodeHandle& handle);

@@ -12,16 +12,16 @@
 
 namespace stereo_nav::nodes {
 
-/// What the node knows of its own state: says problems in the log when they begin, last and end, and reports
-/// them with counts and latency in /diagnostics. Thread-safe.
+/// The health of the node. Logs problems when they begin, while they last and when they end, and reports them
+/// with counts and latency on /diagnostics. Thread-safe.
 class Health {
  public:
   Health(ros::NodeHandle& handle, ros::NodeHandle& private_handle, const std::string& name);
 
   void raise(const std::string& key, bool is_error, const std::string& text);
   void clear(const std::string& key);
-  /// Raises what `texts` hold, ends earlier ones of the same `family` that they do not; empty texts count as
-  /// ended.
+  /// Raises the problems in `texts` and ends earlier ones of the same `family` that are not among them; an
+  /// empty text means that the problem has ended.
   void replace(const std::string& family, bool is_error, const std::map<std::string, std::string>& texts);
 
   void frameDone(const SessionOutput& output, const FrameCounts& counts, double latency_ms);

@@ -8,8 +8,8 @@
 namespace stereo_nav::nodes {
 namespace {
 
-constexpr double kLongestTick_s = 0.5;  // anything longer was a pause
-constexpr std::uint32_t kQueue = 20;    // callbacks are short; this only bridges a busy moment
+constexpr double kLongestTick_s = 0.5;  // a longer interval was a pause
+constexpr std::uint32_t kQueue = 20;    // callbacks are short; the queue only bridges load peaks
 constexpr std::uint32_t kImuQueue = 500;
 constexpr const char* kLeftRectified = "camera/left/image_rect";
 constexpr const char* kRightRectified = "camera/right/image_rect";
@@ -40,7 +40,7 @@ OdometryInputs::OdometryInputs(const ros::NodeHandle& handle, const ros::NodeHan
       uses_disparity_(synchronisation.disparity != odometry::DisparityUse::kNone),
       image_transport_(handle_) {
   watchAll();
-  subscribe();  // in a nodelet the first message may come while the next topic is subscribed to
+  subscribe();  // in a nodelet the first message may arrive while the next topic is being subscribed
 }
 
 std::size_t OdometryInputs::watch(const std::string& topic, bool stamped, const std::string& remedy,
@@ -165,7 +165,7 @@ void OdometryInputs::handleQuaternion(const geometry_msgs::QuaternionConstPtr& q
   const Eigen::Quaterniond q(quaternion->w, quaternion->x, quaternion->y, quaternion->z);
   constexpr double kMinNorm = 0.1;
   if (q.norm() > kMinNorm) sample.q_world_imu = q.normalized();
-  // The thesis' attitude is front-left-up, as the base's axes.
+  // The thesis' attitude is front-left-up, like the base's axes.
   addImuSample(sample, params_.base_frame);
 }
 
@@ -174,12 +174,13 @@ void OdometryInputs::addImuSample(const ImuSample& sample, const std::string& fr
   const bool holds_anything = sample.q_world_imu || sample.angular_velocity;
   if (frame.empty() || !holds_anything || !sample.isFinite()) {
     ++imu_refused_;
-    health_.raise("imu", false,
-                  frame.empty()
-                      ? "IMU messages carry no frame id, so that nobody can say how the IMU is mounted; they "
-                        "are not used. Set it in the driver, or the parameter imu_frame"
-                      : "IMU messages hold NaN, or neither orientation nor rates; they are not used. Look at "
-                        "`rostopic echo` of the topic, then at the driver");
+    health_.raise(
+        "imu", false,
+        frame.empty()
+            ? "IMU messages carry no frame id, so that the mounting of the IMU is unknown; they are "
+              "not used. Set the frame id in the driver, or the parameter imu_frame"
+            : "IMU messages hold NaN, or neither orientation nor rates; they are not used. Look at "
+              "`rostopic echo` of the topic, then at the driver");
     return;
   }
   {

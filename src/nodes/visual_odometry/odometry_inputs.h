@@ -18,24 +18,25 @@
 
 namespace stereo_nav::nodes {
 
-/// What the odometry subscribes to: put together into frames for the inbox, and watched for silence. The
-/// callbacks only queue. They and the public functions that are not marked otherwise must come from one
+/// The subscriptions of the odometry. Assembles frames for the inbox and watches the topics for silence. The
+/// callbacks only queue. They and the public functions that are not marked otherwise must be called from one
 /// thread.
 class OdometryInputs {
  public:
-  /// Subscribes at once; `inbox` and `health` must live longer.
+  /// Subscribes at once; `inbox` and `health` must outlive this object.
   OdometryInputs(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                  const VisualOdometryParams& params, const ros_io::FrameSynchroniserParams& synchronisation,
                  ros_io::Inbox& inbox, Health& health);
 
-  /// Takes over what dynamic_reconfigure has changed.
+  /// Applies changes by dynamic_reconfigure.
   void applyLive(const VisualOdometryParams& params) { monitor_.setTimeout(params.input_timeout_s); }
-  /// To be called a few times a second: time without messages passes only here and in the callbacks.
+  /// Must be called a few times per second: time passes only here and in the callbacks.
   void tick() { clock_.seconds(); }
-  /// Tells `health` what is silent, does not fit together, or was dropped since the last report.
+  /// Reports to `health` which topics are silent, which do not fit together, and what was dropped since the
+  /// last report.
   void report();
 
-  /// What has come beside the frames, and how many came. Thread-safe.
+  /// The latest data besides the frames, and the number of frames. Thread-safe.
   SensorSetup setup() const;
   FrameCounts counts() const;
 
@@ -74,7 +75,7 @@ class OdometryInputs {
   std::uint64_t imu_refused_ = 0;
   std::uint64_t dropped_reported_ = 0;
 
-  mutable std::mutex mutex_;  ///< of the two below
+  mutable std::mutex mutex_;  ///< guards the two below
   SensorSetup setup_;
   FrameCounts counts_;
 

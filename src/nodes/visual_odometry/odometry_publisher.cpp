@@ -23,7 +23,7 @@ static_assert(static_cast<int>(State::kInitialising) == VoStatus::INITIALISING &
                   static_cast<int>(State::kLost) == VoStatus::LOST,
               "VoStatus.state carries the value of odometry::State");
 
-/// ROS covariances are row-major; these are symmetric.
+/// ROS covariances are row-major, which makes no difference since these are symmetric.
 void fillCovariance(const Matrix6d& covariance, boost::array<double, 36>& message) {
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
 }
@@ -88,7 +88,7 @@ void OdometryPublisher::publishOdometry(const ros_io::FrameMessages& frame,
 
 void OdometryPublisher::publishPath(const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
   auto& poses = path_.poses;
-  // Poses are kept without a subscriber, too: who looks later sees the whole way.
+  // Poses are kept without a subscriber, too, so that later subscribers get the whole path.
   const bool is_new =
       poses.empty() || distance(poses.back().pose.position, pose.position) >= params_.path_spacing_m;
   if (is_new) {

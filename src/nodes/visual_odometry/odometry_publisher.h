@@ -21,7 +21,7 @@ struct FrameCounts {
   std::uint64_t lost = 0;
 };
 
-/// Turns what the odometry made of a frame into messages. Pictures, cloud and path are made only for
+/// Publishes the odometry's result of a frame. Images, cloud and path are published only if there are
 /// subscribers.
 class OdometryPublisher {
  public:
@@ -29,7 +29,7 @@ class OdometryPublisher {
 
   void publish(const ros_io::FrameMessages& frame, const SessionOutput& output, const FrameCounts& counts);
   void forgetPath() { path_.poses.clear(); }
-  /// Takes over what dynamic_reconfigure has changed.
+  /// Applies changes by dynamic_reconfigure.
   void applyLive(const VisualOdometryParams& params) { params_ = params; }
 
  private:

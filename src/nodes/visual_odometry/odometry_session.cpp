@@ -131,7 +131,7 @@ bool OdometrySession::prepareImu(const SensorSetup& setup, SessionOutput& output
   std::string problem;
   const auto T_base_imu = lookUp(lookup_, params_.base_frame, imu_frame, false, problem);
   if (!T_base_imu) {
-    // An IMU that appears while the odometry runs without one does not stop it.
+    // If an IMU appears while the odometry runs without one, the odometry goes on.
     (odometry_ ? output.warnings : output.errors)["imu_transform"] = problem;
     return odometry_ != nullptr;
   }
@@ -163,9 +163,8 @@ void OdometrySession::level(double time_s, SessionOutput& output) {
   if (!R_odom_base) {
     output.announcements.push_back(
         "initial_attitude is gravity, but the IMU gives neither attitude nor acceleration before the first "
-        "frame; the "
-        "odometry frame is the base's own, not levelled. Is the IMU running, and sampled at the image's "
-        "time?");
+        "frame; the odometry frame is that of the base at the start, not levelled. Is the IMU running, and "
+        "sampled at the image's time?");
     return;
   }
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
@@ -202,10 +201,9 @@ void OdometrySession::checkCameraOrder(SessionOutput& output) {
   if (camera_order_->verdict() != vision::CameraOrderCheck::Verdict::kSwapped) return;
   output.warnings["camera_order"] =
       "left and right images are swapped: most corners of the left image lie further right in the right "
-      "image "
-      "(negative disparity), which no rectified pair in the right order shows; depth and odometry are wrong. "
-      "Exchange "
-      "the two cameras' device numbers (left_device, right_device), plugs or topics";
+      "image (negative disparity), which is impossible in a correctly ordered rectified pair; depth and "
+      "odometry are wrong. Exchange the two cameras' device numbers (left_device, right_device), plugs or "
+      "topics";
 }
 
 }  // namespace stereo_nav::nodes

@@ -18,48 +18,49 @@
 
 namespace stereo_nav::nodes {
 
-/// Transform that takes coordinates of `source` into `target`; nothing, and why in `error`, while tf does not
-/// know it.
+/// Returns the transform that takes coordinates of `source` into `target`. While tf does not know it, returns
+/// nothing and gives the reason in `error`.
 using TransformLookup = std::function<std::optional<Eigen::Isometry3d>(
     const std::string& target, const std::string& source, std::string& error)>;
 
-/// What came in beside the frames.
+/// Data besides the frames.
 struct SensorSetup {
   sensor_msgs::CameraInfoConstPtr left_info;
   sensor_msgs::CameraInfoConstPtr right_info;
-  std::string imu_frame;  ///< empty while no IMU message has come
+  std::string imu_frame;  ///< empty before the first IMU message
 };
 
-/// What the node publishes of one frame.
+/// The result of one frame, to be published.
 struct SessionOutput {
   bool processed = false;                     ///< false: there is no odometry of this frame; `errors` say why
   std::map<std::string, std::string> errors;  ///< by kind
-  std::map<std::string, std::string> warnings;  ///< by kind; the odometry runs, but not as it should
-  std::vector<std::string> notes;               ///< what happened as it should
-  std::vector<std::string> announcements;       ///< what the user should know of: restarts, changes
+  std::map<std::string, std::string> warnings;  ///< by kind; the odometry runs, but with a defect
+  std::vector<std::string> notes;               ///< expected events
+  std::vector<std::string> announcements;       ///< events that the user should know of: restarts, changes
   odometry::StereoFrame images;
   odometry::FrameResult result;
   estimation::BaseEstimate base;
 };
 
-/// The odometry of a node from messages to the pose of the base: waits until calibration and mounting are
-/// known, refuses what cannot be right, starts anew when the clock jumps back or the cameras change. No
-/// topics in here; not thread-safe.
+/// The odometry of a node, from messages to the pose of the base. Waits until calibration and mounting are
+/// known, refuses invalid input, and starts anew when the clock jumps back or the cameras change. Knows no
+/// topics; not thread-safe.
 class OdometrySession {
  public:
   OdometrySession(const VisualOdometryParams& params, const odometry::OdometryConfig& config,
                   TransformLookup lookup);
 
-  /// `live`: stamps are those of a running clock, not of a replay. Decides whether the pose is kept when they
-  /// jump back: a corrected clock must not move the robot, a bag that starts again begins at the origin.
+  /// `live` means that the stamps come from a running clock, not from a replay. It decides whether the pose
+  /// is kept when they jump back: a corrected clock must not move the robot, but a bag that starts again
+  /// begins at the origin.
   SessionOutput process(const ros_io::Inbox::Work& work, const SensorSetup& setup, bool live);
 
-  /// Takes over what dynamic_reconfigure has changed, for the frames to come.
+  /// Applies changes by dynamic_reconfigure to all later frames.
   void applyLive(const VisualOdometryParams& params);
 
-  /// Forgets everything but the mounting; the next frame is the origin.
+  /// Resets everything but the mounting; the next frame is the origin.
   void reset();
-  /// False while there is no odometry yet.
+  /// Returns false while there is no odometry yet.
   bool setPose(const Eigen::Isometry3d& T_odom_base, const Matrix6d& covariance);
 
   std::uint64_t framesProcessed() const { return frames_processed_; }
@@ -80,7 +81,7 @@ class OdometrySession {
   odometry::OdometryConfig config_;
   TransformLookup lookup_;
 
-  // What the odometry is made for; any change makes a new one.
+  // The setup for which the odometry was created; when it changes, a new odometry is created.
   sensor_msgs::CameraInfoConstPtr left_info_;
   sensor_msgs::CameraInfoConstPtr right_info_;
   std::string camera_frame_;
@@ -88,10 +89,10 @@ class OdometrySession {
   vision::StereoCalibration calibration_;
   Eigen::Isometry3d T_base_camera_ = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d R_base_imu_ = Eigen::Matrix3d::Identity();
-  std::unique_ptr<odometry::Odometry> odometry_;  ///< null until all of it is known
+  std::unique_ptr<odometry::Odometry> odometry_;  ///< null until the whole setup is known
 
   std::optional<estimation::BaseOdometry> base_;
-  RotationHistory imu_history_;  ///< for levelling
+  RotationHistory imu_history_;  ///< used for levelling
   bool level_next_ = true;
   std::optional<vision::CameraOrderCheck> camera_order_;
   double camera_order_checked_s_ = 0.0;

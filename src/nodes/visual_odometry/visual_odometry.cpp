@@ -1,4 +1,4 @@
-// The visual_odometry node: stereo images, disparity and IMU in, odometry out.
+// The visual_odometry node computes odometry from stereo images, disparity and IMU.
 #include "nodes/visual_odometry/visual_odometry_node.h"
 #include "ros/node_program.h"
 

@@ -10,7 +10,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// Names in the private namespace that belong to others.
+/// Names in the private namespace that are read elsewhere.
 const std::set<std::string> kForeignParameters = {"vo", "image_transport", "diagnostic_period"};
 
 constexpr double kTimerPeriod_s = 0.25;
@@ -37,8 +37,8 @@ ros_io::FrameSynchroniserParams synchroniserParams(ros_io::FrameSynchroniserPara
   return params;
 }
 
-/// Waits a moment, once: transforms and first images of a bag come together, and the first frame is the
-/// origin.
+/// Waits up to 0.2 s, only once: a bag's transforms and first images arrive at the same time, and its first
+/// frame must be the origin.
 TransformLookup lookupIn(tf2_ros::Buffer& buffer) {
   constexpr int kTries = 20;
   return [&buffer, tries_left = kTries](const std::string& target, const std::string& source,
@@ -55,7 +55,7 @@ TransformLookup lookupIn(tf2_ros::Buffer& buffer) {
   };
 }
 
-/// Whether stamps follow the running clock of this host, i.e. are not those of a replay.
+/// Whether the stamps follow the running clock of this host and are not those of a replay.
 bool isLive(const ros::Time& stamp) {
   constexpr double kLive_s = 5.0;
   return !ros::Time::isSimTime() && std::abs((ros::Time::now() - stamp).toSec()) < kLive_s;
@@ -142,8 +142,8 @@ void VisualOdometryNode::work() {
     try {
       processFrame(*work);
     } catch (const std::exception& error) {
-      // One frame must not end the process, least of all a manager that other nodelets live in.
-      ROS_ERROR_STREAM(name_ << ": frame " << work->frame.left_stamp << " given up: " << error.what());
+      // One frame must not end the process, least of all a manager that also runs other nodelets.
+      ROS_ERROR_STREAM(name_ << ": frame " << work->frame.left_stamp << " is skipped: " << error.what());
     }
   }
 }

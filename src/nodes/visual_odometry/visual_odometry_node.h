@@ -21,8 +21,8 @@
 
 namespace stereo_nav::nodes {
 
-/// The visual_odometry node; the nodelet is the same object on the nodelet's handles. Callbacks only queue;
-/// one thread runs the odometry and publishes. The handles' callbacks must come from one thread.
+/// The visual_odometry node; the nodelet uses the same class with its own handles. Callbacks only queue; one
+/// thread runs the odometry and publishes. The handles' callbacks must come from one thread.
 class VisualOdometryNode {
  public:
   /// Throws ParameterError.
@@ -51,7 +51,7 @@ class VisualOdometryNode {
   ros_io::Inbox inbox_;
   std::mutex session_mutex_;
   OdometrySession session_;
-  OdometryPublisher publisher_;  ///< under session_mutex_
+  OdometryPublisher publisher_;  ///< guarded by session_mutex_
 
   DisparityView disparity_view_;
   OdometryInputs inputs_;

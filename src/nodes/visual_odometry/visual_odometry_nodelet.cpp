@@ -1,4 +1,5 @@
-// The visual_odometry node as a nodelet: in the manager of the image nodelets, images travel without a copy.
+// The visual_odometry node as a nodelet: in the manager of the image nodelets, images are passed without a
+// copy.
 #include <nodelet/nodelet.h>
 
 #include <memory>
@@ -21,7 +22,7 @@ class VisualOdometryNodelet : public nodelet::Nodelet {
     }
   }
 
-  std::unique_ptr<ros_io::MasterWatch> master_;  ///< the manager does not look by itself
+  std::unique_ptr<ros_io::MasterWatch> master_;  ///< the manager does not watch the master itself
   std::unique_ptr<VisualOdometryNode> node_;
 };
 

@@ -19,7 +19,7 @@ void VisualOdometryParams::describe(ParameterVisitor& visitor) {
                "silence of a topic, or time without a complete frame, before the node explains it",
                Change::kLive);
   visitor.integer("path_max_poses", path_max_poses, {2, 1000000}, "",
-                  "poses kept for `path`; when full, every second one goes");
+                  "poses kept for `path`; when there are more, every second one is removed");
   visitor.real("path_spacing_m", path_spacing_m, {0.0, 100.0}, "m", "distance between poses of `path`",
                Change::kLive);
   visitSection(visitor, "synchronisation", synchronisation);

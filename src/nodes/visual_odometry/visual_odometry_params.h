@@ -10,7 +10,7 @@
 
 namespace stereo_nav::nodes {
 
-/// Parameters of the visual_odometry node and nodelet, in its private namespace. The odometry's own
+/// Parameters of the visual_odometry node and nodelet, in its private namespace. Those of the odometry itself
 /// (config/vo*.yaml) are below `~vo`.
 struct VisualOdometryParams {
   enum class Imu { kNone, kImu, kQuaternion };
