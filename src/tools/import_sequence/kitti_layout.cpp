@@ -57,7 +57,7 @@ void checkFolders(const std::string& folder) {
   throw InputError(folder + ": has no folders image_0 and image_1" +
                    (has_colour ? "; image_2 and image_3 are the colour cameras, which are another pair than "
                                  "that of P0, P1 and the poses: download the grey images, too"
-                               : ", as KITTI odometry has; a drive of KITTI raw needs --format kitti_raw"));
+                               : ", as KITTI odometry has; the layout of KITTI raw is not supported"));
 }
 
 }  // namespace
