@@ -3,8 +3,8 @@ option(STEREO_NAV_WERROR "Treat compiler warnings as errors" OFF)
 set(STEREO_NAV_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined or thread")
 
 # Several sources of one target are compiled together: headers are parsed and templates instantiated once for all of them,
-# which halves the processor time of a build. Who works on one room for a day may prefer OFF: then a change compiles its
-# own file alone.
+# which halves the processor time of a build. For work on one room OFF may be better: a change then compiles its own
+# file alone.
 option(STEREO_NAV_UNITY "Compile the sources of a target in batches" ON)
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 
@@ -22,7 +22,7 @@ if(STEREO_NAV_WERROR)
   add_compile_options(-Werror)
 endif()
 if(STEREO_NAV_SANITIZE)
-  # The assertions of Eigen and of the standard library are part of what such a build is for.
+  # Such a build checks the assertions of Eigen and of the standard library, too.
   add_compile_options(-fsanitize=${STEREO_NAV_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1 -O1
     -UNDEBUG -D_GLIBCXX_ASSERTIONS)
   # Under AddressSanitizer Eigen would allocate in its own way, and memory of ours would be freed in the plain way by an

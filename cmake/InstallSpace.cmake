@@ -1,8 +1,8 @@
 # Before find_package(catkin): the setup files of a standalone install.
 #
 # catkin installs them under the prefix of the configuration (/usr/local unless told), even where
-# `cmake --install BUILD_DIR --prefix PREFIX` names another; these follow the prefix. In a catkin workspace they are
-# the workspace's business, in a Debian package nobody's.
+# `cmake --install BUILD_DIR --prefix PREFIX` names another; these follow the prefix. In a catkin workspace the
+# workspace provides them; a Debian package has none.
 if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR AND NOT CATKIN_BUILD_BINARY_PACKAGE
    AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
   set(CATKIN_INSTALL_INTO_PREFIX_ROOT FALSE)

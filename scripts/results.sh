@@ -5,9 +5,9 @@
 #
 # WORK_DIR (default: a new temporary folder) keeps the bags and, for each case and configuration, what `evaluate`
 # writes. CONFIG: files of config/ (default: vo.yaml vo_thesis.yaml). The package must be built (scripts/build.sh).
-# Pinned to one core with taskset; a case with few frames is repeated until its timing stands on about 1000 frames, but
-# with --once, which is for the errors alone. At the end vo.yaml is held against public systems, scripts/lib/peers.yaml:
-# what must not be worse and is ends the script with 1.
+# Pinned to one core with taskset; a case with few frames is repeated until its timing rests on about 1000 frames,
+# except with --once, which is for the errors alone. At the end vo.yaml is compared with public systems
+# (scripts/lib/peers.yaml); the script ends with 1 where it is worse and must not be.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
 [[ -d ${STEREO_NAV_DATA:-} ]] || die "STEREO_NAV_DATA names no folder; set it to the one that holds euroc_mh01_a"

@@ -79,13 +79,13 @@ run_tests() {
   run_ctest "$build_dir" graph -E '_gtest_'
 }
 
-# sanitized_tests BUILD_DIR SANITIZERS CTEST_ARGUMENT...: unit tests only, since ROS's nodes are not ours to instrument.
+# sanitized_tests BUILD_DIR SANITIZERS CTEST_ARGUMENT...: unit tests only, since the nodes of ROS are not instrumented.
 sanitized_tests() {
   local dir=$1 sanitizers=$2
   shift 2
   fresh_results "$dir"
   say "unit tests under -fsanitize=$sanitizers, building in $dir"
-  # Warnings are the normal build's business: instrumented code makes GCC see ones that are none.
+  # The normal build checks the warnings; on instrumented code GCC gives false ones.
   step "$dir" "configure" configure "$dir" -DSTEREO_NAV_SANITIZE="$sanitizers" -DSTEREO_NAV_WERROR=OFF || return 0
   local targets
   targets=$(cd "$dir" && ctest -N -R '_gtest_' "$@" | sed -n 's/.*_ctest_stereo_nav_gtest_//p')

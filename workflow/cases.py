@@ -87,8 +87,8 @@ def bag_name(scenario, settings, seed):
 
 
 def settings_with_same_images(scenario, settings):
-    """Those of a case that sees the same and differs in its IMU alone: images cost much more than the rest. None where
-    no case is like that."""
+    """The settings of a case with the same images that differs in its IMU alone, since images cost much more than the
+    rest. None if there is no such case."""
     others = [setting for setting in settings if not setting.startswith("imu.")]
     cases_of_all = [(case[0], sorted(case[1])) for points in GROUPS.values() for case in points.values()]
     return others if others != settings and (scenario, sorted(others)) in cases_of_all else None
@@ -108,7 +108,7 @@ def all_runs(groups, seeds_of, leave_out=()):
 
 
 def digest(*paths):
-    """Of all files in these files and folders of the package: what changes when a result may change."""
+    """Hash of these files, and of all files in these folders, of the package: it changes when a result may change."""
     total = hashlib.sha256()
     for path in paths:
         top = os.path.join(ROOT, path)

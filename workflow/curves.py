@@ -39,9 +39,9 @@ def skew(results, pictures):
                        for config in ("thesis", "stereo"))
     first, last = min(thesis, key=float), max(thesis, key=float)
     return ("## Skew between the cameras\n\nThe right camera takes its image later than the left one, constantly, or both run "
-            "on clocks of their own (200 ppm apart, 1 ms of jitter, nearest images paired). IMU without error. From %s to %s "
-            "ms the RMSE of the method as published goes from %.2f to %.2f m (%s), that of the default, which takes each image "
-            "at its own time, from %.3f to %.3f m (%s).\n\n%s\n\n![skew](experiments/skew.svg)" % (
+            "on clocks of their own (200 ppm apart, 1 ms of jitter, nearest images paired). The IMU has no error. "
+            "From %s to %s ms the RMSE of the method as published goes from %.2f to %.2f m (%s), that of the default, "
+            "which takes each image at its own time, from %.3f to %.3f m (%s).\n\n%s\n\n![skew](experiments/skew.svg)" % (
                 first, last, thesis[first], thesis[last], _change(thesis[first], thesis[last]), default[first], default[last],
                 _change(default[first], default[last]),
                 drives_table_of(results, ["skew", "free"], ["thesis", "stereo"])))
@@ -81,9 +81,9 @@ def rolling_shutter(results, pictures):
             for point in points for config in ("thesis", "stereo_unaware", "stereo")
             if results.select("rolling", point, config)]
     return ("## Rolling shutter\n\nCheap webcams read the rows of an image one after another. The RMSE of the default, %.3f m "
-            "with a global shutter, becomes %s with %s between the first and the last row when it knows of that, %s when it "
-            "does not. IMU without error; in the last drives the cameras also run on clocks of their own.\n\n%s\n\n"
-            "![rolling shutter](experiments/rolling.svg)" % (
+            "with a global shutter, becomes %s with %s between the first and the last row when it knows of this time, "
+            "%s when it does not. The IMU has no error; in the last drives the cameras also run on clocks of their "
+            "own.\n\n%s\n\n![rolling shutter](experiments/rolling.svg)" % (
                 statistics.mean(default[first]), trend(default), last, trend(unaware),
                 table(["readout", "configuration", "seeds", "RMSE (m)", "end error (m)"], rows)))
 
@@ -119,7 +119,8 @@ def rotation(results, pictures):
             "the features. On synchronised cameras the method as published has an RMSE of %.2f m with an IMU like his (%s "
             "deg/s of drift) and of %.2f m with rotation from its own features. %s; the default, which uses the IMU's rotation "
             "as a prior only, has %.3f m at the smallest and %.3f m at the largest drift.\n\n%s\n\n![drift]"
-            "(experiments/rotation_drift.svg)\n\nThe same over the skew between the cameras, with an IMU without error:\n\n"
+            "(experiments/rotation_drift.svg)\n\nThe next plot shows the same over the skew between the cameras, with "
+            "an IMU without error:\n\n"
             "![rotation and skew](experiments/rotation_skew.svg)" % (
                 imu[drifts[0]], drifts[0], vision_m, verdict, results.mean("drift", drifts[0], "stereo"),
                 results.mean("drift", drifts[-1], "stereo"), table(
@@ -144,12 +145,13 @@ def resolution(results, pictures):
               for config, first, last in (("thesis", "thesis", thesis_of[points[-1]]), ("stereo", "stereo", "stereo"))}
     before_curves = " / ".join(spread(_error_at(row, 5) for row in results.select("resolution", point, thesis_of[point]))
                                for point in points)
-    return ("## Resolution\n\nAt 10 Hz, since large images cost 16 times as much to render; synchronised cameras, IMU without "
-            "error. The disparities searched grow with the image, so that the nearest depth stays 0.89 m. From %s to %s the "
-            "RMSE of the method as published goes from %.2f to %.2f m (%s), that of the default from %.3f to %.3f m (%s). "
-            "On the straight stretch finer disparity does help the method as published: at way-point 5 it is off by %s m (%s). "
-            "What it loses, it loses in the curves after that: from image to image they shift a larger image by more pixels, "
-            "and its tracker starts where the feature was. At 30 Hz: the accuracy of the default above.\n\n%s\n\n![resolution](experiments/resolution.svg)" % (
+    return ("## Resolution\n\nThese drives are at 10 Hz, since large images cost 16 times as much to render, with "
+            "synchronised cameras and an IMU without error. The disparities searched grow with the image, so that the "
+            "nearest depth stays 0.89 m. From %s to %s the RMSE of the method as published goes from %.2f to %.2f m "
+            "(%s), that of the default from %.3f to %.3f m (%s). On the straight stretch finer disparity does help the "
+            "method as published: at way-point 5 it is off by %s m (%s). It loses accuracy in the curves after that: "
+            "from image to image they shift a larger image by more pixels, and its tracker starts where the feature "
+            "was. For 30 Hz see the accuracy of the default above.\n\n%s\n\n![resolution](experiments/resolution.svg)" % (
                 points[0], points[-1], *trends["thesis"], _change(*trends["thesis"]), *trends["stereo"],
                 _change(*trends["stereo"]), before_curves, " / ".join(points), drives_table(results, ["resolution"])))
 
@@ -168,14 +170,14 @@ def _ideal_causes(results, pictures):
                 "set arrow 1 from graph 0, first 0.25 to graph 1, first 0.25 nohead lc rgb '#2b8a57' dt 2\n")
     mean = {label: sum(values) / len(values) for label, values in ideal.items()}
     steps, exact = mean["true, steps 1/16 px"], mean["true disparity"]
-    blame = ("so that the map's steps are the cause, not tracking, rigidity, clique or motion: a feature keeps its depth "
-             "until its disparity jumps by a step, at 10 m by 11 cm, while the robot moves 1.7 cm from image to image"
-             if steps > 2 * exact else "so that the steps alone do not explain the error")
-    return ("On the ideal arena, changing one thing at a time. With the true disparity in place of the block matcher's map the "
-            "RMSE of the method as published is %.2f instead of %.2f m (asked for: 0.25 m, the dashed line). The true "
-            "disparity rounded to the matcher's steps of 1/16 px gives %.2f m, to steps of 1/64 px %.2f m; %s. Far features, "
-            "weighed like near ones, suffer most: without those beyond 8.1 m (disparity below 7 px) the RMSE is %.2f m.\n\n%s"
-            "\n\n![ideal](experiments/causes_ideal.svg)" % (
+    blame = ("therefore the map's steps are the cause, not tracking, rigidity, clique or motion: a feature keeps its "
+             "depth until its disparity jumps by a step, at 10 m by 11 cm, while the robot moves 1.7 cm from image to image"
+             if steps > 2 * exact else "therefore the steps alone do not explain the error")
+    return ("On the ideal arena one thing is changed at a time. With the true disparity in place of the block "
+            "matcher's map the RMSE of the method as published is %.2f instead of %.2f m (asked for: 0.25 m, the "
+            "dashed line). The true disparity rounded to the matcher's steps of 1/16 px gives %.2f m, to steps of 1/64 "
+            "px %.2f m; %s. Far features, weighed like near ones, suffer most: without those beyond 8.1 m (disparity "
+            "below 7 px) the RMSE is %.2f m.\n\n%s\n\n![ideal](experiments/causes_ideal.svg)" % (
                 exact, mean["as published"], steps, mean["true, steps 1/64 px"], blame, mean["near features only"],
                 drives_table(results, ["ablation"])))
 
@@ -194,6 +196,6 @@ def _conditions_causes(results, pictures):
     least = min((label for label in mean if label not in ("as the thesis", "default (vo.yaml)")), key=mean.get)
     effect = ("falls most with \"%s\", to %.1f %%" % (least, mean[least]) if mean[least] < mean["as the thesis"] else
               "does not fall with any of them")
-    return ("Under the thesis' conditions, taking one difficulty away at a time: the end error of %.1f %% of the course %s. "
-            "Points are seeds, lines their mean.\n\n![conditions](experiments/causes_conditions.svg)" % (
+    return ("Under the thesis' conditions one difficulty is taken away at a time: the end error of %.1f %% of the "
+            "course %s. Points are seeds, lines their mean.\n\n![conditions](experiments/causes_conditions.svg)" % (
                 mean["as the thesis"], effect))

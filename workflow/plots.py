@@ -21,7 +21,7 @@ def quoted(text):
 
 
 def quoted_label(text):
-    """Of an axis' tic, where % begins a format."""
+    """The label of an axis' tic, where % begins a format."""
     return quoted(text.replace("%", "%%"))
 
 

@@ -9,7 +9,7 @@ THESIS_RECT_HZ, THESIS_DISPARITY_HZ, THESIS_LOWEST_HZ = 29.78, 29.735, 29.56
 THESIS_FEATURES, THESIS_INLIERS = 149.99, 61.35
 THESIS_DRIFT_DEG, THESIS_DRIFT_S = 2.9, 600
 THESIS_BLOCK_RMSE_M = 0.066
-# What the comparison with the thesis' drives is made with: cameras with a clock each, blur, its IMU.
+# The conditions of the comparison with the thesis' drives: cameras with a clock each, blur, its IMU.
 CONDITIONS = ("thesis_conditions", "two clocks, blur")
 
 

@@ -32,7 +32,7 @@ SECTIONS = [
 INTRODUCTION = """# The thesis' experiments, repeated in simulation
 
 Made by `scripts/experiments.sh`: {runs} evaluations of {drives} simulated drives with exact ground truth. No figure and no
-verdict here is typed by hand; the same command makes this page again. ± is the standard deviation over the seeds, bars in
+verdict here is typed by hand; the same command makes this page again. ± is the standard deviation over the seeds; bars in
 the plots reach from the best to the worst seed. Unless said otherwise errors are those at the twelve way-points of the
 arena, as the author measured them, and both configurations drive on the same recordings: `vo_thesis.yaml` is the method
 as published, `vo.yaml` the default. "Ideal" means synchronised cameras and an IMU without error."""

@@ -3,7 +3,7 @@
 # lines, what went wrong on standard error.
 #
 # Installs in both ways that there are, each into an empty folder below BUILD_DIR: `cmake --install` of BUILD_DIR, and
-# `catkin_make install` of a workspace. Uses either as a stranger would: programs, launch files, and the package of
+# `catkin_make install` of a workspace. Uses each as another user would: programs, launch files, and the package of
 # somebody else in test/external_package, which uses the library and the nodelet.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Measures a running graph: time from the start of this program to the first odometry, then, over SECONDS, the age of each
-odometry message when it arrives: from the image's stamp (mid-exposure of the left image) to here.
+odometry message when it arrives: the time since the image's stamp (mid-exposure of the left image).
 
     measure_latency.py SECONDS [WARM_UP_SECONDS]
 """

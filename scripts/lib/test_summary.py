@@ -52,7 +52,7 @@ def rostest_cases(path):
 
 
 def ctest_statuses(log):
-    """Test name -> what ctest says became of it."""
+    """Test name -> its result according to ctest."""
     pattern = re.compile(r'^ *\d+/\d+ Test +#\d+: (\S+) \.* *(?:\*\*\*)?([A-Z][A-Za-z ]*[a-z])', re.MULTILINE)
     return dict(pattern.findall(log.read_text(errors='replace'))) if log.exists() else {}
 

@@ -84,7 +84,7 @@ std::vector<Criterion> criteriaOf(const CalibrationCheck& check, const CheckLimi
                rows_remedy},
           {"epipolar", "px", check.epipolar_rms_px, limits.epipolar_px, rows_remedy},
           {"disparity", "px", check.disparity_rms_px, limits.disparity_px,
-           "depth over the board is not plane: hold it still, see that it is flat, or calibrate again"},
+           "depth over the board is not plane: hold it still, check that it is flat, or calibrate again"},
           {"scale", "%", 100.0 * check.scale_error, 100.0 * limits.scale,
            "distances are wrong by this much: measure a square of the board (--square), then calibrate again "
            "with it"}};

@@ -16,7 +16,7 @@ std::size_t indexOf(const Checkerboard& board, int row, int column) {
   return static_cast<std::size_t>(row * board.columns + column);
 }
 
-/// From the first to the last corner of the first row, and of the first column.
+/// Vectors from the first to the last corner of the first row, and of the first column.
 cv::Point2f alongRow(const Corners& corners, const Checkerboard& board) {
   return corners[indexOf(board, 0, board.columns - 1)] - corners.front();
 }

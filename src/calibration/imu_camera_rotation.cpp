@@ -191,7 +191,7 @@ ImuCameraRotation calibrateImuCameraRotation(const std::vector<CameraOrientation
 void ImuCameraRotationParams::describe(ParameterVisitor& visitor) {
   visitor.real("interval_s", interval_s, {0.02, 5.0}, "s", "time over which turns are compared");
   visitor.real("max_offset_s", max_offset_s, {0.0, 2.0}, "s",
-               "largest error of the IMU's stamps that is looked for");
+               "largest error of the IMU's stamps that is searched for");
   visitor.real("min_rate_deg_s", min_rate_deg_s, {0.0, 1000.0}, "deg/s",
                "RMS rate about the second of the motion's axes, below which the motion has too few axes");
   visitor.real("max_sigma_deg", max_sigma_deg, {0.0, 180.0}, "deg", "largest uncertainty that is accepted");

@@ -87,8 +87,9 @@ std::string refuseResult(const ImuCameraRotation& result, bool mirrored,
   } else if (second_deg_s < params.min_rate_deg_s) {
     text << "the motion had too few axes: " << first_deg_s << " deg/s RMS about "
          << axisName(result.motion_axes.col(0)) << ", only " << second_deg_s
-         << " about the next one. How the IMU is turned about that axis cannot be "
-         << "seen so: turn the rig about the other two as well (tilt and nod it by 20 deg, by hand)";
+         << " about the next one. The rotation of the IMU about that axis cannot be "
+            "observed in this way: turn the rig about the other two as well (tilt and nod it by 20 deg, "
+            "by hand)";
   } else if (mirrored) {
     text << "the IMU's axes are mirrored (left-handed): one of its angles has the wrong sign or they are in "
             "the wrong order; see angle_order in docs/imu.md";
@@ -99,7 +100,7 @@ std::string refuseResult(const ImuCameraRotation& result, bool mirrored,
          << "protocol says, and are its stamps within " << params.max_offset_s << " s?";
   } else if (std::abs(result.imu_offset_s) > params.max_offset_s) {
     text << "the IMU's stamps would be off by more than " << params.max_offset_s
-         << " s, farther than is looked for: correct them first";
+         << " s, which is more than the range that is searched: correct them first";
   } else if (!(result.sigma_rad.maxCoeff() < params.max_sigma_deg * kRadPerDeg)) {
     text << "uncertain by " << result.sigma_rad.maxCoeff() / kRadPerDeg << " deg (" << params.max_sigma_deg
          << " allowed): record longer, and turn more about all three axes";

@@ -23,7 +23,7 @@ std::uint64_t streamKey(std::uint64_t seed, Parts... parts) {
   return key;
 }
 
-/// In [0, 1).
+/// A number in [0, 1).
 inline double uniformDraw(std::uint64_t key, std::uint64_t counter) {
   return static_cast<double>(mixBits(key + 0xD1342543DE82EF95ull * counter) >> 11) * 0x1.0p-53;
 }

@@ -30,7 +30,7 @@ struct RigParams {
   SensorMounting camera{0.10, 0.0613, 0.283, 0.0, 0.0, 0.0};  ///< the left one
 
   void describe(ParameterVisitor& visitor);
-  /// Of the rectified left optical frame.
+  /// Pose of the rectified left optical frame.
   Eigen::Isometry3d T_base_camera() const { return camera.T_base_optical(); }
 };
 

@@ -13,7 +13,7 @@ namespace stereo_nav::sim {
 
 enum class Side { kLeft, kRight };
 
-/// Of the two raw cameras, with their rectification.
+/// Calibrations of the two raw cameras, with their rectification.
 struct StereoCalibrationPair {
   CameraCalibration left;
   CameraCalibration right;

@@ -31,7 +31,7 @@ class Texture {
 
   /// Deterministic in (kind, seed).
   Texture(TextureKind kind, std::uint64_t seed);
-  /// From a CV_32FC1 image of kSize x kSize with values in [-1, 1].
+  /// A texture from a CV_32FC1 image of kSize x kSize with values in [-1, 1].
   explicit Texture(const cv::Mat& image);
 
   int levels() const { return static_cast<int>(pyramid_.size()); }

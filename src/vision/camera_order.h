@@ -22,8 +22,8 @@ class CameraOrderCheck {
   void observe(const cv::Mat& left, const cv::Mat& right);
   void reset() { votes_.clear(); }
 
-  /// From the last few observations; unknown until enough corners were found again (texture, depth below
-  /// about 100 baselines).
+  /// The verdict from the last few observations; unknown until enough corners were found again (texture,
+  /// depth below about 100 baselines).
   Verdict verdict() const;
 
  private:

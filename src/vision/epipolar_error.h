@@ -14,13 +14,13 @@ struct EpipolarErrorParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// Where the right image shows things, against where a perfect rectification would: a camera that nods moves
-/// all rows, one that rolls tilts them, one of another focal length spreads them. The three are learned from
-/// the rows of the matches themselves, by robust recursive least squares with a fading memory, and the
+/// The error of the places in the right image against those of a perfect rectification: a camera that nods
+/// moves all rows, one that rolls tilts them, one of another focal length spreads them. The three are learned
+/// from the rows of the matches themselves, by robust recursive least squares with a fading memory, and the
 /// columns that go with them are corrected too: half a pixel of row error at the edge of the image comes with
-/// as much error of disparity at its foot. Webcams in a home-made mount are a pixel or two off some time
-/// after their calibration; the public recordings are a few tenths. What leaves the rows alone (a camera that
-/// turns sideways, a wrong baseline) cannot be seen.
+/// as much error of disparity at its foot. The rows of webcams in a home-made mount are a pixel or two off
+/// some time after their calibration, those of the public recordings a few tenths. Errors that do not change
+/// the rows (a camera that turns sideways, a wrong baseline) cannot be observed.
 class EpipolarError {
  public:
   EpipolarError(const EpipolarErrorParams& params, const StereoCalibration& calibration);

@@ -46,7 +46,7 @@ class Patch {
 
   int window_ = 0;
   int stride_ = 0;  ///< columns with padding: a multiple of 8
-  // In eighths of a grey level, zero mean, zero in the padding columns.
+  // The values are in eighths of a grey level, with zero mean, and zero in the padding columns.
   alignas(16) Grid intensity_;
   alignas(16) Grid gradient_x_;
   alignas(16) Grid gradient_y_;

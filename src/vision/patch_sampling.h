@@ -15,8 +15,9 @@ void sample(const cv::Mat& image, const cv::Point2f& corner, int rows, int strid
 /// Whether a patch of axes `step` around `centre` lies in the image and its border.
 bool warpInside(const cv::Mat& image, const cv::Point2f& centre, const Eigen::Matrix2f& step, int half);
 
-/// As sample() around `centre`, along the axes `step` (image px per patch px): column c and row r of the
-/// patch at centre + step * (c - half, r - half). In fixed point: this runs for every track and level.
+/// Samples like sample() around `centre`, along the axes `step` (image px per patch px): column c and row r
+/// of the patch are at centre + step * (c - half, r - half). It uses fixed point, since it runs for every
+/// track and level.
 void sampleWarped(const cv::Mat& image, const cv::Point2f& centre, const Eigen::Matrix2f& step, int half,
                   int stride, std::int16_t* out);
 

@@ -27,7 +27,7 @@ class PatchTracker {
   /// `guess` is where `px` of `from` is expected in `to`; `top_level` is the coarsest level of the search.
   /// `step` is how many px of `from` a px of `to` is expected to span, as an axis each. Coarse levels only
   /// move the guess; `finest_level` decides: 0, or more for images in which the fine detail is blurred.
-  /// Nothing without enough texture or likeness.
+  /// Finds nothing without enough texture or likeness.
   std::optional<Patch::Match> track(const ImagePyramid& from, const cv::Point2f& px, const ImagePyramid& to,
                                     const cv::Point2f& guess, int top_level,
                                     const Eigen::Matrix2f& step = Eigen::Matrix2f::Identity(),

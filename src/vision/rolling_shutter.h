@@ -25,7 +25,8 @@ class RollingShutter {
     return time_s(calibration_.right_raw_rows, right_px);
   }
 
-  /// Where the left image shows the point `p_camera` (its place at the stamp) that it would show at `px`.
+  /// The place where the left image shows the point `p_camera` (at the stamp), which a global shutter would
+  /// show at `px`.
   Eigen::Vector2d seenLeft(const Eigen::Vector2d& px, const Eigen::Vector3d& p_camera,
                            const Vector6d& twist) const;
   /// The observation that a global shutter would have made.

@@ -43,13 +43,13 @@ class SparseStereoMatcher {
  public:
   SparseStereoMatcher(const SparseStereoParams& params, const StereoCalibration& calibration);
 
-  /// From a predicted position in the right image.
+  /// Matches from a predicted position in the right image.
   std::optional<StereoMatch> refine(const ImagePyramid& left, const ImagePyramid& right,
                                     const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
                                     const Eigen::Vector2d& guess_px, double slack_px) const;
 
-  /// Without a prediction: the whole range of disparities on a coarse level, then from there. Nothing if a
-  /// second place looks nearly as alike.
+  /// Matches without a prediction: searches the whole range of disparities on a coarse level and refines the
+  /// result. Finds nothing if a second place looks nearly as alike.
   std::optional<StereoMatch> search(const ImagePyramid& left, const ImagePyramid& right,
                                     const Eigen::Isometry3d& T_late_camera, const Eigen::Vector2d& left_px,
                                     double slack_px) const;

@@ -141,7 +141,7 @@ class CalibrateLaunch : public ::testing::Test {
     if (!VirtualScreen::available()) GTEST_SKIP() << "Xvfb or xdotool is not installed";
     fs::remove_all(folder);  // of an earlier run
     fs::create_directories(folder);
-    // What somebody has saved there is not ours.
+    // A calibration that the user has saved there is kept.
     if (fs::exists(kSaved)) fs::rename(kSaved, kept_);
   }
   void TearDown() override {
@@ -165,8 +165,8 @@ TEST_F(CalibrateLaunch, TheButtonsLeadToASavedCalibrationThatIsGood) {
   for (const std::string side : {"left", "right"}) {
     EXPECT_TRUE(ros::service::waitForService("camera/" + side + "/set_camera_info", ros::Duration(60)));
   }
-  // `_stamps:=true` of the command line is a bool there until the node, its services up, writes back what it
-  // has read, which is text.
+  // `_stamps:=true` of the command line is a bool there until the node has started its services and writes
+  // back what it has read, which is text.
   std::string stamps;
   for (int attempt = 0; attempt < 600 && !ros::param::get("stereo_capture/stamps", stamps); ++attempt) {
     ros::WallDuration(0.1).sleep();

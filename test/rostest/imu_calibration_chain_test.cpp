@@ -1,4 +1,4 @@
-// From a raw module with errors through calibrate_imu and its file to an imu_bridge that has taken them off.
+// From a raw module with errors through calibrate_imu and its file to an imu_bridge that corrects them.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
@@ -42,7 +42,7 @@ Quaterniond tiltedAtRest(double /*time_s*/) {
   return Quaterniond(AngleAxisd(kTilt_rad, Vector3d::UnitY()));
 }
 
-/// What imu_emulator is to follow.
+/// The motion that imu_emulator follows.
 void writeTrajectory(const std::string& path, Quaterniond (*attitude)(double), double duration_s) {
   Trajectory trajectory;
   for (double t = 0.0; t < duration_s; t += 0.02) {

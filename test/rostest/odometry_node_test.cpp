@@ -1,4 +1,4 @@
-// The visual_odometry node alone, fed by the test: what it explains, its services, its pictures.
+// The visual_odometry node alone, fed by the test: its explanations, its services, its images.
 #include <gtest/gtest.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Empty.h>
@@ -106,7 +106,7 @@ std::unique_ptr<Rig> OdometryNode::rig_;
 std::unique_ptr<GraphProbe> OdometryNode::probe_;
 std::unique_ptr<tf2_ros::StaticTransformBroadcaster> OdometryNode::mounting_;
 
-// The first test: nobody has published the mounting yet.
+// This test is the first one: nobody has published the mounting yet.
 TEST_F(OdometryNode, WaitsForTheMountingAndNamesTheCommandThatPublishesIt) {
   ASSERT_TRUE(probe_->waitForLog("base_link -> camera_left_optical", kLongWait_s));
   EXPECT_TRUE(probe_->waitForLog("rosrun tf2_ros static_transform_publisher", kLongWait_s));

@@ -38,7 +38,7 @@ TEST(Operation, CtrlCEndsEveryNodeByItself) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   RecordProperty("seconds", std::to_string(took.count()));
   std::cout << "ended in " << took.count() << " s\n";
-  // roslaunch becomes rough with nodes that do not end, and says so.
+  // roslaunch kills nodes that do not end, and says so.
   EXPECT_EQ(robot.count("escalating to"), 0) << robot.output();
   EXPECT_EQ(robot.count("has died"), 0) << robot.output();
 }
@@ -49,7 +49,8 @@ TEST(Operation, AGoneMasterEndsTheNodesAndTheNextOneFindsThemAgain) {
   BackgroundCommand robot(kRobot + "nodelet:=false");
   ASSERT_TRUE(comes("/odom")) << robot.output();
   master.crash();
-  // Each of our three processes says so and ends with a status that is not 0; roslaunch starts it again.
+  // Each of the package's three processes says so and ends with a status that is not 0; roslaunch starts it
+  // again.
   EXPECT_TRUE(robot.waitForOutput("has died [pid", kLongWait_s, 3)) << robot.output();
   EXPECT_EQ(robot.count("has gone: its port refuses connections"), 3) << robot.output();
   EXPECT_EQ(robot.count("exit code 3"), 3) << robot.output();
@@ -111,7 +112,7 @@ TEST_P(Rviz, ShowsAllOfTheOdometry) {
 
 INSTANTIATE_TEST_SUITE_P(BothViews, Rviz, testing::Values("robot", "offline"));
 
-/// What rig_transforms says of a rig file, and its exit status.
+/// Output of rig_transforms for a rig file, and its exit status.
 CommandResult checkRig(const std::string& text) {
   const auto path = std::filesystem::temp_directory_path() / "stereo_nav_operation_test_rig.yaml";
   std::ofstream(path) << text;

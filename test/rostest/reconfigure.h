@@ -67,7 +67,7 @@ inline std::map<std::string, Value> valuesOf(const dynamic_reconfigure::Config& 
   return values;
 }
 
-/// What the node has after the request; nothing where the service is not there or refuses.
+/// The values of the node after the request; nothing if the service is missing or refuses.
 inline std::optional<std::map<std::string, Value>> reconfigure(const std::string& node,
                                                                const std::map<std::string, Value>& values) {
   dynamic_reconfigure::Reconfigure service;

@@ -32,7 +32,7 @@ TEST(RobotDevices, EachMissingDeviceIsNamed) {
   EXPECT_EQ(diagnostics.levelOf("rig_transforms: mounting"), 0);
 }
 
-/// What the rig file says goes before config/, what neither says is the default.
+/// The rig file overrides config/; a parameter that neither of them sets has its default.
 TEST(RobotDevices, TheRigFileGoesBeforeTheConfiguration) {
   GraphProbe probe;
   const auto become = [&](const std::string& name, double expected) {

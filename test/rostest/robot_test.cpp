@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
 
-/// How far the motion of the odometry is from that of the truth between its first and its last pose that have
-/// one.
+/// Difference between the motion of the odometry and the true motion, from the first to the last pose for
+/// which there is a truth.
 std::optional<double> motionError(const GraphProbe& probe, double& way_m) {
   std::vector<std::pair<nav_msgs::Odometry, nav_msgs::Odometry>> pairs;
   for (const auto& odometry : probe.odometry) {
@@ -106,7 +106,7 @@ bool publishesTf(GraphProbe& probe, double seconds) {
   return seen;
 }
 
-/// What the node has afterwards; nothing where it does not answer.
+/// The values of the node after the request; nothing if it does not answer.
 std::optional<dynamic_reconfigure::Config> reconfigure(const std::string& node, const std::string& flag,
                                                        bool on) {
   dynamic_reconfigure::Reconfigure service;
@@ -144,8 +144,9 @@ TEST(Robot, UncertaintyIsChangedLive) {
   ASSERT_TRUE(ros::service::call("/visual_odometry/uncertainty/set_parameters", service));
 }
 
-/// Its static checks look at the computer's ROS installation, where it may find what it will, but nothing of
-/// ours. Outside of any package's folder: of one with messages it wants ROS_ROOT, which Debian does not set.
+/// The static checks of roswtf look at the computer's ROS installation; they may find anything there, but
+/// nothing about this package. It runs outside of any package's folder, since for a package with messages it
+/// needs ROS_ROOT, which Debian does not set.
 TEST(Robot, RoswtfFindsNothingOfOurs) {
   const CommandResult result = runCommand("cd / && PATH=/usr/bin:$PATH timeout 120 roswtf");
   const auto online = result.output.find("Online checks summary:");

@@ -28,7 +28,7 @@ class BackgroundCommand {
     execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
     _exit(127);
   }
-  /// Ends it and everything that it has started, if it has not ended.
+  /// Ends the command and everything that it has started, unless it has ended.
   ~BackgroundCommand() {
     if (!status_) {
       kill(-pid_, SIGKILL);
@@ -42,14 +42,14 @@ class BackgroundCommand {
   void signal(int number) const { kill(pid_, number); }
   pid_t pid() const { return pid_; }
 
-  /// Exit status; 128 when a signal ended it.
+  /// Waits for the end; returns the exit status, or 128 when a signal ended the command.
   int wait() {
     if (status_) return *status_;
     int status = 0;
     waitpid(pid_, &status, 0);
     return *(status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128);
   }
-  /// Nothing when it has not ended within the time.
+  /// The exit status; nothing when the command has not ended within the time.
   std::optional<int> waitFor(double seconds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (!status_ && std::chrono::steady_clock::now() < end) {
@@ -69,14 +69,14 @@ class BackgroundCommand {
     text << file.rdbuf();
     return text.str();
   }
-  /// How often it has printed `text`.
+  /// How often the command has printed `text`.
   int count(const std::string& text) const {
     const std::string all = output();
     int found = 0;
     for (auto at = all.find(text); at != std::string::npos; at = all.find(text, at + 1)) ++found;
     return found;
   }
-  /// Whether it has printed `text` so often within the time.
+  /// Whether the command prints `text` at least `times` times within the time.
   bool waitForOutput(const std::string& text, double seconds, int times = 1) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (count(text) < times) {

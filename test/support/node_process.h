@@ -24,7 +24,7 @@ class NodeProcess {
   NodeProcess(const NodeProcess&) = delete;
   NodeProcess& operator=(const NodeProcess&) = delete;
 
-  /// Exit status; 128 when it was killed by a signal.
+  /// Ends the program; returns its exit status, or 128 when a signal killed it.
   int stop() {
     if (pid_ <= 0) return status_;
     kill(pid_, SIGINT);
@@ -32,13 +32,13 @@ class NodeProcess {
     return status_;
   }
 
-  /// Waits until it ends by itself; the same.
+  /// Waits until the program ends by itself; returns the same as stop().
   int join() {
     if (pid_ > 0) wait(0);
     return status_;
   }
 
-  /// Whether it has ended by itself.
+  /// Whether the program has ended by itself.
   bool ended() {
     if (pid_ > 0) wait(WNOHANG);
     return pid_ <= 0;

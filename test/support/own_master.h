@@ -39,14 +39,14 @@ class OwnMaster {
   }
   ~OwnMaster() { setenv("ROS_MASTER_URI", uri_before_.c_str(), 1); }
 
-  /// Returns when it answers.
+  /// Starts the master and returns when it answers.
   void start() {
     process_.emplace("PATH=/usr/bin:$PATH exec rosmaster --core -p " + std::to_string(port_));
     while (!answers()) {
       if (process_->waitFor(0.05)) throw std::runtime_error("rosmaster has ended: " + process_->output());
     }
   }
-  /// At once, as in a crash.
+  /// Ends the master at once, as in a crash.
   void crash() { process_.reset(); }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace stereo_nav::test {
 
-/// What stands between the board and the pixels of a webcam.
+/// The disturbances between the board and the pixels of a webcam.
 struct WebcamFaults {
   double blur_px = 0.8;  ///< standard deviation of the lens' blur, at 640 px of width
   double read_noise = 2.0;

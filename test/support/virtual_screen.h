@@ -7,8 +7,8 @@
 
 namespace stereo_nav::test {
 
-/// An X server without a screen (Xvfb), on a display that nobody uses, with an eye and a hand at the mouse
-/// (xdotool).
+/// An X server without a screen (Xvfb) on an unused display, whose image can be read and whose mouse can be
+/// moved (xdotool).
 class VirtualScreen {
  public:
   /// Whether both programs are installed.

@@ -58,8 +58,8 @@ class Loopback : public testing::Test {
   /// Both images of every pair show the same counter, and counters grow.
   void expectMatchingCounters(std::vector<StereoImages> pairs) {
     expectOrdered(pairs);
-    // When a reader asks for buffers, v4l2loopback stamps anew what lies in them: its first frame is an old
-    // one.
+    // When a reader asks for buffers, v4l2loopback gives the images in them new stamps: its first frame is an
+    // old one.
     pairs.erase(pairs.begin());
     std::uint32_t previous = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -76,8 +76,8 @@ class Loopback : public testing::Test {
               << " us\n";
   }
 
-  /// When the left feeder sends one of its next images. A feeder that began at any other time could lie half
-  /// a period beside the left one for good, where no right image is near enough to be a left one's.
+  /// When the left feeder sends one of its next images. A feeder that began at any other time could stay half
+  /// a period away from the left one, where no right image is near enough to a left one.
   Feeder::Time nextLeftImage() const {
     const auto periods = (std::chrono::steady_clock::now() - first_) / kPeriod;
     return first_ + (periods + 2) * kPeriod;

@@ -28,8 +28,8 @@ class Topic {
   ros::Subscriber subscriber_;
 };
 
-/// Lets messages in until it comes true; false after a generous time: on a busy host the machine takes a
-/// minute to load a node's libraries.
+/// Handles messages until the condition is true; false after a generous time, since on a busy host the
+/// machine takes a minute to load a node's libraries.
 inline bool comesTrue(const std::function<bool()>& condition,
                       std::chrono::seconds patience = std::chrono::seconds(300)) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
@@ -41,7 +41,7 @@ inline bool comesTrue(const std::function<bool()>& condition,
   return true;
 }
 
-/// What ROS time is ahead of the monotonic clock; a reading that was interrupted does not count.
+/// Offset of ROS time from the monotonic clock; a reading that was interrupted does not count.
 inline double rosMinusMonotonic_s() {
   const camera::ClockMapping mapping([] { return camera::linuxKernel().monotonicNow(); },
                                      [] { return camera::linuxKernel().realtimeNow(); });

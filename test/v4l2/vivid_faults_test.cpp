@@ -20,8 +20,8 @@ std::size_t openDescriptors() {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}));
 }
 
-/// Of memory that the program asked for, without its code, of which the system keeps more or less: what was
-/// freed goes back to the system first.
+/// Memory that the program asked for, without its code, since the system keeps a varying part of that. Freed
+/// memory is given back to the system first.
 long residentKilobytes() {
   malloc_trim(0);
   std::ifstream status("/proc/self/status");
@@ -74,7 +74,7 @@ TEST_F(Vivid, ComesBackWhenBothCamerasWereRemovedAndBoundAgain) {
 }
 
 TEST_F(Vivid, FiftyReconnectionsLeaveNothingBehind) {
-  // Else the kernel may hand out 2 MB where the program asks for 60 kB.
+  // Otherwise the kernel may hand out 2 MB where the program asks for 60 kB.
   ::prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);
   rig_.keepImages(false);
   rig_.start(configOf(320, 180));
@@ -84,7 +84,7 @@ TEST_F(Vivid, FiftyReconnectionsLeaveNothingBehind) {
     return StereoRig::comesTrue([&] { return rig_.right().reconnections == number + 1; });
   };
   std::uint64_t number = 0;
-  // Always after as many pairs: a driver's buffers take memory when they are first used.
+  // Measured always after the same number of pairs: a driver's buffers take memory when they are first used.
   const auto settle = [this] { return rig_.pairsCome(12); };
   for (; number < 10; ++number) ASSERT_TRUE(cycle(number));
   ASSERT_TRUE(settle());

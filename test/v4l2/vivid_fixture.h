@@ -120,7 +120,7 @@ class Vivid : public testing::Test {
     return gaps;
   }
 
-  /// Seconds from `since` to the first pairs; reported, and bounded only by the rig's patience.
+  /// Seconds from `since` to the first pairs; reported, and limited only by the time for which the rig waits.
   void expectPairsAgain(Clock::time_point since, const std::string& fault) {
     EXPECT_TRUE(rig_.pairsCome(3)) << fault;
     const double seconds = std::chrono::duration<double>(Clock::now() - since).count();

@@ -3,7 +3,7 @@
 set -euo pipefail
 export ROS_MASTER_URI=http://localhost:11411 ROS_HOSTNAME=localhost ROS_HOME=/tmp/ros_home ROS_LOG_DIR=/tmp/ros_home/log
 mkdir -p "$ROS_LOG_DIR"
-# Else ROS' programs in Python load all of setuptools, which looks at every installed package: half a minute here.
+# Otherwise ROS' programs in Python load all of setuptools, which looks at every installed package: half a minute here.
 export SETUPTOOLS_USE_DISTUTILS=stdlib
 rosmaster --core -p 11411 >/tmp/rosmaster.log 2>&1 &
 master=$!

@@ -14,7 +14,7 @@ namespace stereo_nav::calibration {
 struct BoardPose {
   /// Board frame (see Checkerboard::corners()) -> rectified left optical frame.
   Eigen::Isometry3d T_camera_board = Eigen::Isometry3d::Identity();
-  /// Of the left perturbation of T_camera_board (m, rad), from the residuals of this view.
+  /// Covariance of the left perturbation of T_camera_board (m, rad), from the residuals of this view.
   Matrix6d covariance = Matrix6d::Zero();
   std::vector<Eigen::Vector4d> residual_px;  ///< per corner, observed - predicted: left x, y, right x, y
 };

@@ -18,7 +18,7 @@ struct ViewFigures {
   double epipolar_mean_px;  ///< its mean over the board
   double disparity_rms_px;  ///< of the disparity minus that of the pose that fits best
   double scale;             ///< triangulated size of the board / its true size
-  /// From the left camera to the middle of the board.
+  /// Distance from the left camera to the middle of the board.
   double distance_m() const { return pose.T_camera_board.translation().norm(); }
 };
 

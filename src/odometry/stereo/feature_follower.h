@@ -25,12 +25,12 @@ class FeatureFollower {
   /// Takes over where the map has the landmarks of the tracks.
   void updatePoints(const LocalMap& map);
 
-  /// Looks for the features in `left` where `prediction` has them, then where they were, then after an
-  /// unpredicted turn of the camera as a whole, then at half the resolution for images with motion blur.
-  /// Without `is_predicted` the search begins where they were.
+  /// Searches for the features in `left` at their places in `prediction`, then at their last places, then
+  /// after an unpredicted turn of the camera as a whole, then at half the resolution for images with motion
+  /// blur. If not `is_predicted`, the search begins at their last places.
   void follow(const vision::ImagePyramid& left, const FramePrediction& prediction, bool is_predicted);
-  /// Looks once more, near `prediction`, for those that were not found or were no inliers. Returns the tracks
-  /// that were found.
+  /// Searches once more, near `prediction`, for the features that were not found or were no inliers. Returns
+  /// the tracks that were found.
   TrackIndices recover(const vision::ImagePyramid& left, const FramePrediction& prediction);
 
   /// Makes the current frame the keyframe: inliers go on, the others are not looked for any more.

@@ -29,7 +29,7 @@ class LocalMap {
   WindowFrame& beforeNewest() { return frames_[frames_.size() - 2]; }
   const WindowFrame& oldest() const { return frames_.front(); }
 
-  /// In order of their ids. The reference is valid until a landmark is added or removed.
+  /// All landmarks, in order of their ids. The reference is valid until a landmark is added or removed.
   std::vector<Landmark>& landmarks() { return landmarks_; }
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   /// Null if the map has no landmark of this id.
@@ -37,7 +37,7 @@ class LocalMap {
 
   /// Adds the current frame, which is the newest from here on.
   void addFrame(const WindowFrame& frame) { frames_.push_back(frame); }
-  /// What the newest frame saw of a landmark that the map has.
+  /// Adds what the newest frame saw of a landmark of the map.
   void addObservation(std::uint64_t id, const vision::StereoObservation& seen);
   /// Adds a landmark that the newest frame sees for the first time. Returns its id, which is set here.
   std::uint64_t addLandmark(Landmark landmark, const vision::StereoObservation& seen);

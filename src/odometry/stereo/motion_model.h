@@ -34,10 +34,11 @@ class MotionModel {
   bool forgetVelocity();
 
   MotionPrior prior(const FrameTimes& times) const;
-  /// Where a new map begins after frames were lost: at the previous position, turned as the IMU says.
+  /// The pose at which a new map begins after frames were lost: the previous position, rotated by what the
+  /// IMU measured since.
   Eigen::Isometry3d turnedSincePrevious(const FrameTimes& times) const;
   /// Whether the motion changes the velocity since the previous two frames by more than five sigma of the
-  /// acceleration: no robot moves so, hence the features lie on something that moves on its own.
+  /// acceleration: no robot moves in this way, so that the features lie on something that moves on its own.
   bool exceedsAcceleration(const Eigen::Isometry3d& T_current_previous, double interval_s) const;
 
   /// A frame for the window, with what `prior` expects of the motion between its two stamps.

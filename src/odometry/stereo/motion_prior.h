@@ -6,8 +6,8 @@
 
 namespace stereo_nav::odometry {
 
-/// What is known of a frame's motion before its features are looked at. Twists are those of the world in the
-/// left camera's frame, m/s and rad/s.
+/// What is known of a frame's motion before its features are searched for. Twists are those of the world in
+/// the left camera's frame, m/s and rad/s.
 struct MotionPrior {
   Eigen::Isometry3d T_previous_world = Eigen::Isometry3d::Identity();
   /// Rotation since the previous frame, measured by the IMU, and its sigma per axis.

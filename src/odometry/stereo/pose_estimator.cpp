@@ -89,8 +89,8 @@ NormalEquations linearise(const vision::StereoCalibration& calibration,
   return equations;
 }
 
-/// What the inverse of the weighted information has to be multiplied by to be the covariance of the robust
-/// estimate: E[psi^2] / E[psi']^2, with the information counted per weight (Huber 1981, chapter 7).
+/// The factor by which the inverse of the weighted information becomes the covariance of the robust estimate:
+/// E[psi^2] / E[psi']^2, with the information counted per weight (Huber 1981, chapter 7).
 class RobustNoise {
  public:
   explicit RobustNoise(double loss_px) : loss_px_(loss_px) {}

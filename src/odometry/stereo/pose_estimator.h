@@ -24,7 +24,7 @@ struct MapObservation {
   bool reliable = true;  ///< otherwise it is only judged by the motion that the reliable ones have
 };
 
-/// What PoseEstimator found; not to be used unless `converged`.
+/// The result of PoseEstimator; not to be used unless `converged`.
 struct PoseEstimate {
   vision::StereoView view;
   Matrix6d covariance = Matrix6d::Zero();  ///< of the left perturbation of T_camera_world: m, rad

@@ -39,16 +39,16 @@ void selectReliableTracks(int min_inliers, std::vector<Track>& tracks);
 void compensateRollingShutter(const vision::RollingShutter& shutter, const vision::StereoView& view,
                               const Vector6d& twist, std::vector<Track>& tracks);
 
-/// Where a point would be seen in the left image of `view` at its stamp; `previous_px` if it is not in front
-/// of the camera.
+/// The pixel at which the left image of `view` would show the track's point at its stamp; `previous_px` if
+/// the point is not in front of the camera.
 Eigen::Vector2d predictedPixel(const vision::StereoCalibration& calibration, const vision::StereoView& view,
                                const Track& track);
 
-/// Found tracks whose left pixel lies at most `max_error_px` from where `view` has it.
+/// Found tracks whose left pixel lies at most `max_error_px` from its projection by `view`.
 TrackIndices tracksNear(const vision::StereoCalibration& calibration, const vision::StereoView& view,
                         double max_error_px, const std::vector<Track>& tracks);
 
-/// What the pose is estimated from.
+/// The observations from which the pose is estimated.
 std::vector<MapObservation> observations(const std::vector<Track>& tracks, const TrackIndices& selected);
 
 }  // namespace stereo_nav::odometry

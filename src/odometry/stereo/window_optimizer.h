@@ -24,7 +24,7 @@ struct WindowFrame {
   Vector6d late_sigma = Vector6d::Ones();  ///< of the left perturbation of T_late_camera: m, rad
 };
 
-/// What one frame of the window saw of a landmark.
+/// The observation of a landmark by one frame of the window.
 struct LandmarkView {
   int frame = 0;  ///< index into the window
   vision::StereoObservation seen;

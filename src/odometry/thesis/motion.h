@@ -32,10 +32,10 @@ struct RefinementParams {
   void describe(ParameterVisitor& visitor);
 };
 
-/// What refineMotion() found.
+/// The result of refineMotion().
 struct RefinedMotion {
   Eigen::Isometry3d T_current_previous = Eigen::Isometry3d::Identity();
-  /// Of the left perturbation (translation m, rotation rad), scaled to the noise of the residuals.
+  /// Covariance of the left perturbation (translation m, rotation rad), scaled to the noise of the residuals.
   Matrix6d covariance = Matrix6d::Zero();
   std::vector<bool> inlier;  ///< per pair: reprojection error at most max_error_px
   std::size_t inliers = 0;

@@ -22,7 +22,7 @@ class DeviceControls {
   const Control* find(const std::string& name) { return findControl(list(), name); }
 
   std::int32_t get(const Control& control) const;
-  /// Nothing where the camera has no such control.
+  /// The control's value, or nothing if the camera has no such control.
   std::optional<std::int32_t> get(const std::string& name);
   /// Returns the value that the driver then has. Throws CaptureError when it refuses.
   std::int32_t set(const Control& control, std::int32_t value) const;

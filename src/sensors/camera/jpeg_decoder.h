@@ -6,7 +6,7 @@
 
 namespace stereo_nav::camera::internal {
 
-/// As `decode`, for MJPG.
+/// Does for MJPG what `decode` does.
 std::string decodeJpeg(const std::uint8_t* data, std::size_t size, const ImageLayout& layout,
                        Encoding encoding, DecodedImage& image);
 

@@ -10,7 +10,7 @@ namespace stereo_nav::camera {
 namespace {
 
 constexpr std::size_t kMostIntervals = 15;
-/// In frames. A counter that jumps further, or does not move, does not count frames.
+/// Longest gap, in frames. A counter that jumps further, or does not move, does not count frames.
 constexpr std::uint32_t kLongestGap = 1000;
 /// Number of frames of one camera that may wait for the other one. When the other one stalls, the oldest
 /// frame is dropped.

@@ -16,7 +16,7 @@ struct FramePair {
   std::int64_t timeOffset_ns() const { return right.time_ns - left.time_ns; }
 };
 
-/// What became of the frames. Every frame pushed is paired, dropped for one of the reasons, or still waiting.
+/// Counts of the frames. Every frame pushed is paired, dropped for one of the reasons, or still waiting.
 struct PairerCounts {
   std::uint64_t pairs = 0;
   std::array<std::uint64_t, 2> without_partner{};  ///< no frame of the other camera within max_time_offset

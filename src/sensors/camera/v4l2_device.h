@@ -15,7 +15,7 @@
 
 namespace stereo_nav::camera {
 
-/// What the driver says about itself.
+/// The driver's description of itself.
 struct Capabilities {
   std::string driver;
   std::string card;

@@ -33,15 +33,11 @@ std::optional<Options> parse(int argc, char** argv) {
   Options options;
   po::options_description visible(
       "usage: calibrate_imu_rotation BAG --rig FILE [options]\n"
-      "Finds how the IMU is turned against the cameras and writes roll_deg, pitch_deg and yaw_deg of "
-      "mounting/imu into\n"
-      "the rig file; nothing else in it changes. BAG holds raw stereo images, camera_info and imu/data (or "
-      "imu_quat) of\n"
-      "half a minute in which the rig is turned by some 30 deg to and fro about all three axes, in front of "
-      "texture.\n"
-      "Exit status: 0 written, 1 the recording does not tell it (nothing is written), 2 input that cannot be "
-      "used.\n\n"
-      "Options");
+      "Finds the rotation of the IMU against the cameras and writes it as roll_deg, pitch_deg and\n"
+      "yaw_deg of mounting/imu into the rig file; nothing else in it changes. BAG holds raw stereo\n"
+      "images, camera_info and imu/data (or imu_quat) of half a minute in which the rig is turned by some\n"
+      "30 deg to and fro about all three axes, in front of texture. Exit status: 0 written, 1 the recording\n"
+      "does not determine the rotation (nothing is written), 2 input that cannot be used.\n\nOptions");
   visible.add_options()                                                                     //
       ("help,h", "this text")                                                               //
       ("rig", po::value(&options.rig), "rig file, with the mounting of camera and IMU")     //
@@ -49,7 +45,7 @@ std::optional<Options> parse(int argc, char** argv) {
       ("start", po::value(&options.part.start_s), "seconds of the recording to skip")       //
       ("duration", po::value(&options.part.duration_s), "seconds of the recording to use")  //
       ("max-offset", po::value(&options.params.max_offset_s)->default_value(options.params.max_offset_s),
-       "largest error of the IMU's stamps that is looked for, s")  //
+       "largest error of the IMU's stamps that is searched for, s")  //
       ("config", po::value(&options.config)->default_value(options.config), "parameters of the odometry");
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;
@@ -67,8 +63,9 @@ std::vector<calibration::CameraOrientation> followCamera(const Options& options,
   const ros_io::StereoProcessing processing(recording.leftInfo(), recording.rightInfo(), {});
   const odometry::OdometryConfig config = odometry::loadOdometryConfig(ros_io::configFile(options.config));
   if (config.method() == odometry::Method::kThesis) {
-    throw InputError(options.config +
-                     ": this method turns with the IMU; take one that sees for itself, vo.yaml");
+    throw InputError(
+        options.config +
+        ": this method takes the rotation from the IMU; use vo.yaml, which measures it in the images");
   }
   const auto odometry = odometry::makeOdometry(config, processing.calibration(), Eigen::Matrix3d::Identity());
   std::vector<calibration::CameraOrientation> orientations;

@@ -45,12 +45,10 @@ std::optional<Options> parse(int argc, char** argv) {
   std::string size = "8x6";
   po::options_description visible(
       "usage: check_calibration [INPUT] [options]\n"
-      "How good a stereo calibration is, measured on views of a checkerboard, and where the board stands.\n\n"
-      "INPUT is a folder with left01.png, right01.png, ... (or left/01.png, right/01.png), or a bag with raw "
-      "images.\n"
-      "Without INPUT it listens to camera/{left,right}/{image_raw,camera_info}. Exit status: 0 good, 1 poor, "
-      "2 input\n"
-      "that cannot be used.\n\nOptions");
+      "Measures on views of a checkerboard how good a stereo calibration is, and where the board stands.\n\n"
+      "INPUT is a folder with left01.png, right01.png, ... (or left/01.png, right/01.png), or a bag with\n"
+      "raw images. Without INPUT it listens to camera/{left,right}/{image_raw,camera_info}.\n"
+      "Exit status: 0 good, 1 poor, 2 input that cannot be used.\n\nOptions");
   visible.add_options()        //
       ("help,h", "this text")  //
       ("calibration", po::value(&options.calibration),

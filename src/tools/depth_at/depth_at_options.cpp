@@ -14,10 +14,10 @@ std::optional<DepthAtOptions> parseDepthAtOptions(int argc, char** argv) {
   po::options_description visible(
       "usage: depth_at BAG --pixel X Y [options]\n"
       "       depth_at --live [--pixel X Y] [options]\n"
-      "Distance along the view at a pixel of the rectified left image: the median over a window, then mean, "
-      "spread and range over the frames. Of a recording, with the disparity of the nodelets; or live, from "
-      "camera/disparity. Live without --pixel a window shows camera/left/image_rect: click into it, any key "
-      "ends");
+      "Prints the distance along the view at a pixel of the rectified left image: the median over a window, "
+      "then mean, spread and range over the frames. The disparity of a recording is computed as by the "
+      "nodelets; --live takes camera/disparity. With --live and without --pixel, a window shows "
+      "camera/left/image_rect: click into it; any key ends the program");
   visible.add_options()                                                                           //
       ("help,h", "this text")                                                                     //
       ("live", "from the topics of a running graph")                                              //

@@ -36,9 +36,9 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("config", po::value<std::string>()->default_value("vo.yaml"),
        "parameters of the odometry: a path, or a file of the package's config folder")  //
       ("disparity-config", po::value<std::string>()->default_value("disparity.yaml"),
-       "parameters of the disparity map, where the odometry uses one; found likewise")  //
+       "parameters of the disparity map, where the odometry uses one; looked up in the same way")  //
       ("disparity-from", po::value<std::string>(),
-       "bag whose camera/disparity is taken instead of a map of our own, e.g. BAG itself")  //
+       "bag whose camera/disparity is used instead of a computed map, e.g. BAG itself")  //
       ("ground-truth", po::value<std::string>(),
        "TUM trajectory file, or topic in the bag (default: ground_truth/odom if the bag has it)")  //
       ("ground-truth-frame", po::value<std::string>(),

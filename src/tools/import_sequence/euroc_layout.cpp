@@ -16,7 +16,7 @@ namespace stereo_nav::tools {
 namespace {
 
 namespace fs = std::filesystem;
-/// As OpenCV stores its matrices.
+/// Stored row by row, as OpenCV stores its matrices.
 using RowMajorMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 /// sensor.yaml of a camera: the raw image and where the camera sits.

@@ -27,13 +27,13 @@ constexpr const char* kUsage =
     "Turns a public stereo recording into a bag with the topics of a stereo rig.\n\n"
     "  euroc   DIR/cam0, cam1 (data.csv, data/, sensor.yaml), imu0, state_groundtruth_estimate0;\n"
     "          raw images, rectified downstream by the camera_infos written\n"
-    "  kitti   DIR/image_0, image_1, calib.txt, times.txt, poses.txt (KITTI odometry); time 0 becomes 1000 "
-    "s\n"
+    "  kitti   DIR/image_0, image_1, calib.txt, times.txt, poses.txt (KITTI odometry); time 0 becomes\n"
+    "          1000 s\n"
     "  images  DIR/left, right with images, or two videos *L.mp4, *R.mp4 (*left, *right), rectified;\n"
     "          calib.txt with the lines fx, fy, cx, cy (px), baseline (m) and, if need be, fps;\n"
     "          pairs have equal names; stamps come from times.txt, from names that are dates, or from fps\n\n"
     "base_link is the IMU (the default for euroc) or the left camera with x forward, y left, z up (REP-103;\n"
-    "the default for the others). Ground truth is given of base_link.\n\nOptions";
+    "the default for the others). The ground truth gives poses of base_link.\n\nOptions";
 
 std::atomic<bool> interrupted{false};
 
@@ -55,7 +55,7 @@ po::options_description describeOptions(Arguments& arguments, double& right_stam
   options.add_options()("right-lag-frames", po::value(&arguments.bag.right_lag_frames),
                         "take the right image K original frames later than the left, with its true stamp");
   options.add_options()("right-stamp-offset-ms", po::value(&right_stamp_offset_ms),
-                        "lie about the right stamps by a constant");
+                        "add a constant error to the right stamps");
   options.add_options()("no-imu", "leave the IMU out");
   options.add_options()("reverse", po::bool_switch(&arguments.reverse), "let time run backwards");
   options.add_options()("mirror", po::bool_switch(&arguments.mirror),

@@ -54,11 +54,10 @@ void checkFolders(const std::string& folder) {
   namespace fs = std::filesystem;
   if (fs::is_directory(folder + "/image_0") && fs::is_directory(folder + "/image_1")) return;
   const bool has_colour = fs::is_directory(folder + "/image_2") && fs::is_directory(folder + "/image_3");
-  throw InputError(
-      folder + ": has no folders image_0 and image_1" +
-      (has_colour ? "; image_2 and image_3 are the colour cameras, which are another pair than "
-                    "that of P0, P1 and the poses: download the grey images, too"
-                  : ", as KITTI odometry has; the layout of KITTI raw is another one, which is not read"));
+  throw InputError(folder + ": has no folders image_0 and image_1" +
+                   (has_colour ? "; image_2 and image_3 are the colour cameras, which are another pair than "
+                                 "that of P0, P1 and the poses: download the grey images, too"
+                               : ", as KITTI odometry has; the layout of KITTI raw is not supported"));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ sensor_msgs::CameraInfo toCameraInfo(const RectifiedCamera& camera) {
   info.K = {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
   info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   info.P = {camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0};
-  // Not -fx * 0, which is minus zero.
+  // With a zero baseline, -fx * 0 would be minus zero.
   if (camera.baseline_m != 0.0) info.P[3] = -camera.fx * camera.baseline_m;
   return info;
 }

@@ -15,7 +15,8 @@ struct RectifiedCamera {
   double baseline_m;  ///< 0 for the left camera
 };
 
-/// Nothing to undistort, nothing to rectify: D zero, R identity, P = [K | -fx * baseline].
+/// The camera_info of images that need no undistortion or rectification: D zero, R identity, P = [K | -fx *
+/// baseline].
 sensor_msgs::CameraInfo toCameraInfo(const RectifiedCamera& camera);
 
 }  // namespace stereo_nav::tools

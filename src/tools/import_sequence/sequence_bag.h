@@ -34,7 +34,7 @@ struct BagSummary {
 /// - `tf_static` (latched): base_link to camera_left_optical (as rectified) and to imu_link.
 /// base_link is the IMU, or the left camera with x forward, y left, z up (REP-103).
 /// Messages are recorded at the time of their stamps, in order of time; equal input gives equal bytes.
-/// Nothing is left behind unless the bag is complete. Throws InputError or InputError.
+/// Nothing is left behind unless the bag is complete. Throws InputError.
 BagSummary writeBag(Sequence& sequence, const BagOptions& options, const std::string& path,
                     const std::function<void(std::size_t done, std::size_t all)>& progress);
 

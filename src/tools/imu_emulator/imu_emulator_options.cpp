@@ -115,17 +115,17 @@ po::options_description describeOptions(EmulatorOptions& o) {
       ("accelerometer-offset", triple(0.0), "x y z, m/s^2")  //
       ("accelerometer-gain", triple(1.0), "x y z")           //
       ("accelerometer-noise", po::value(&o.errors.accelerometer_noise_m_s2)->default_value(0.0),
-       "standard deviation, m/s^2")                                          //
-      ("seed", po::value(&o.seed)->default_value(1), "of noise and faults")  //
+       "standard deviation, m/s^2")                                               //
+      ("seed", po::value(&o.seed)->default_value(1), "seed of noise and faults")  //
       ("corrupt", po::value(&o.corrupt_probability)->default_value(0.0),
        "share of bytes that are changed")                                                           //
       ("drop", po::value(&o.drop_probability)->default_value(0.0), "share of bytes that are lost")  //
       ("garbage", po::value(&o.garbage_probability)->default_value(0.0),
-       "share of frames that are followed by random bytes")                                 //
-      ("pause-at", po::value(&o.pause.start_s), "second at which the module falls silent")  //
-      ("pause-for", po::value(&o.pause.duration_s)->default_value(2.0), "seconds")          //
-      ("unplug-at", po::value(&o.unplug.start_s), "second at which the cable is pulled")    //
-      ("unplug-for", po::value(&o.unplug.duration_s)->default_value(2.0), "seconds");
+       "share of frames that are followed by random bytes")                                    //
+      ("pause-at", po::value(&o.pause.start_s), "second at which the module falls silent")     //
+      ("pause-for", po::value(&o.pause.duration_s)->default_value(2.0), "seconds of silence")  //
+      ("unplug-at", po::value(&o.unplug.start_s), "second at which the cable is pulled")       //
+      ("unplug-for", po::value(&o.unplug.duration_s)->default_value(2.0), "seconds without the cable");
   return visible;
 }
 

@@ -20,13 +20,14 @@ namespace {
 
 const char* const kIntroduction = R"(# Parameters
 
-Printed by `rosrun stereo_nav parameters` from what the nodes check; a test holds this page to it. An unknown name, a wrong
-type or a value out of range ends the node with a message that names the parameter, the value and what is allowed.
+Printed by `rosrun stereo_nav parameters` from the descriptions by which the nodes check their parameters; a test compares
+them. An unknown name, a wrong type or a value out of range ends the node with a message that names the parameter, the value
+and what is allowed.
 
-A node takes its values from, each going before the one ahead of it: the defaults below; the file `~config` (a file of
-`config/`); its section of the rig file `~rig`; its private namespace on the parameter server, into which `_NAME:=VALUE`
-among its arguments goes. The launch files hand over the paths as arguments, so that a node that is started again after the
-master has gone reads the same values. A dot stands for a level in a file and for `/` on the parameter server.
+A node reads its values from these places, where a later one overrides those before it: the defaults below; the file
+`~config` (a file of `config/`); its section of the rig file `~rig`; its private namespace on the parameter server, which
+the argument `_NAME:=VALUE` sets. The launch files pass the paths as arguments, so that a node that is started again after
+the master has ended reads the same values. A dot stands for a level in a file and for `/` on the parameter server.
 **Live** marks what dynamic_reconfigure changes on the running node.
 )";
 

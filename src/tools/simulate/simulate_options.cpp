@@ -45,14 +45,15 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
   options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   po::options_description visible(
       "usage: simulate SCENARIO --output BAG [options]\n"
-      "Drives a robot through a simulated world and records what its cameras and IMU see, and the truth. "
-      "SCENARIO is a file, or the name of one in the package's config/scenarios. The same seed gives the "
-      "same bytes");
-  visible.add_options()                                                                                 //
-      ("help,h", "this text")                                                                           //
-      ("parameters", "lists what a scenario may hold, with ranges and defaults")                        //
-      ("output", po::value<std::string>(&options.output), "bag to write")                               //
-      ("seed", po::value<std::uint64_t>(&options.seed), "of noise, jitter and IMU errors (default 1)")  //
+      "Drives a robot through a simulated world and records what its cameras and IMU measure, and "
+      "the ground truth. SCENARIO is a file, or the name of one in the package's config/scenarios. The same "
+      "seed gives the same bytes");
+  visible.add_options()                                                           //
+      ("help,h", "this text")                                                     //
+      ("parameters", "lists what a scenario may hold, with ranges and defaults")  //
+      ("output", po::value<std::string>(&options.output), "bag to write")         //
+      ("seed", po::value<std::uint64_t>(&options.seed),
+       "seed of noise, jitter and IMU errors (default 1)")  //
       ("skew-ms", po::value<double>(),
        "right images are taken this much later; same as --set timing.skew_ms=S")  //
       ("set", po::value<std::vector<std::string>>(&options.overrides),

@@ -52,7 +52,7 @@ std::optional<Options> parse(int argc, char** argv) {
   return options;
 }
 
-/// Of every pixel of the rectified left image, CV_32FC1.
+/// Disparity of every pixel of the rectified left image, CV_32FC1.
 cv::Mat disparityMap(const sim::Simulation& simulation, const sim::Scene& scene, double time_s,
                      double step_px) {
   const sim::CameraCalibration& left = simulation.calibration(sim::Side::kLeft);

@@ -1,4 +1,4 @@
-// How exactly a pair of webcams tells where a board is: raw pictures with distortion, blur and noise, the
+// How exactly a pair of webcams measures where a board is: raw pictures with distortion, blur and noise, the
 // calibration either exact or obtained from 40 such pictures by OpenCV. The table is that of
 // docs/calibration.md; the figures to beat, 2.9 mm and 0.3 degrees at 0.3 to 1 m, are a single camera's.
 #include <gtest/gtest.h>

@@ -25,7 +25,7 @@ struct Wiggle {
     return expRotation(Eigen::Vector3d(angle.x(), 0, 0)) * expRotation(Eigen::Vector3d(0, angle.y(), 0)) *
            expRotation(Eigen::Vector3d(0, 0, angle.z()));
   }
-  /// Of the camera in its own frame, rad/s.
+  /// Angular velocity of the camera in its own frame, rad/s.
   Eigen::Vector3d rate(double time_s) const {
     constexpr double kStep_s = 1e-4;
     return logRotation(orientation(time_s - kStep_s).transpose() * orientation(time_s + kStep_s)) /
@@ -76,7 +76,7 @@ Data simulate(const Wiggle& wiggle, const Faults& faults) {
   return data;
 }
 
-/// The same motion as a module tells it that sends attitudes.
+/// The same motion, as a module that sends attitudes reports it.
 void useAttitudes(const Wiggle& wiggle, Data& data, double offset_s) {
   for (ImuSample& sample : data.imu) {
     const Eigen::Matrix3d R_world_imu = wiggle.orientation(sample.time_s - offset_s) * kMounting;
@@ -132,7 +132,8 @@ TEST(ImuCameraRotation, TheUncertaintyIsHonest) {
     ASSERT_TRUE(result.usable()) << result.refusal;
     normalised += errorOf(result).cwiseQuotient(result.sigma_rad).squaredNorm() / (3.0 * kRuns);
   }
-  // Neighbouring turns share an orientation, so that their errors cancel in part: rather too careful.
+  // Neighbouring turns share an orientation, so that their errors cancel in part and the estimated deviation
+  // is somewhat too large.
   EXPECT_LT(normalised, 1.5);
   EXPECT_GT(normalised, 0.2);
 }

@@ -130,7 +130,7 @@ TEST_F(OdometrySessionTest, WaitsForTheImusMountingBeforeItStartsButNotLater) {
   EXPECT_EQ(output.result.state, odometry::State::kTracking);
   EXPECT_EQ(output.warnings.count("imu_transform"), 1u);
 
-  // With the mounting known the odometry starts anew, the pose stays.
+  // When the mounting is known, the odometry starts anew and keeps the pose.
   transforms_[ros_io::frames::kImu] = Eigen::Isometry3d::Identity();
   const Eigen::Vector3d before = output.base.T_odom_base.translation();
   output = process(frameAt(0.2));

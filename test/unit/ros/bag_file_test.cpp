@@ -45,7 +45,7 @@ TEST(BagFile, leavesNothingWithoutCommit) {
   EXPECT_EQ(folder.countFiles(), 0u);
 }
 
-/// Files of this process cannot grow beyond some bytes while it lives: a full disk.
+/// Simulates a full disk: while it exists, files of this process cannot grow beyond some bytes.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

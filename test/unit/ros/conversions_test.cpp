@@ -62,7 +62,7 @@ TEST(ToCalibration, RefusesWhatImageGeometryWouldAbortOnOrMisread) {
   EXPECT_TRUE(contains(refusal(sensor_msgs::CameraInfo(), sensor_msgs::CameraInfo()), "not calibrated"));
 }
 
-/// As image_geometry tells it, which image_proc rectifies with.
+/// The rows agree with image_geometry, by which image_proc rectifies.
 TEST(RawRows, AreThoseOfTheUnrectifiedPixels) {
   sensor_msgs::CameraInfo camera = info(false);
   camera.distortion_model = "plumb_bob";

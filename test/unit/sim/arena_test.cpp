@@ -1,4 +1,4 @@
-// The arena is as its author describes it: much of what can be tracked is far away, and near features are
+// The arena is as the thesis describes it: much of what can be tracked is far away, and near features are
 // missing at way-points 7 and 12.
 #include <gtest/gtest.h>
 

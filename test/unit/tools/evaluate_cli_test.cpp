@@ -103,7 +103,7 @@ TEST_F(EvaluateTest, MeasuresAKnownDriveAndRepeatsItselfToTheByte) {
 }
 
 TEST_F(EvaluateTest, TheDisparityMapHasItsOwnParameters) {
-  // Searched beyond the disparities of the room, nothing has a depth and nothing can be followed.
+  // When the search lies beyond the disparities of the room, nothing has a depth and nothing can be followed.
   std::ofstream(file("near.yaml")) << "min_disparity: 128\n";
   const auto as_configured = evaluate(file("room.bag") + " --output " + file("wide"));
   ASSERT_EQ(as_configured.status, 0) << as_configured.output;

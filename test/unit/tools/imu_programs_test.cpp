@@ -46,7 +46,7 @@ class ImuPrograms : public testing::Test {
     std::ofstream(file(name)) << toTum(trajectory);
   }
 
-  /// `duration_s` of imu/data; `drift_deg_s` of yaw when it does not move.
+  /// Writes `duration_s` of imu/data; the yaw drifts by `drift_deg_s` when the robot does not move.
   void writeBag(const std::string& name, double duration_s, bool moving, double drift_deg_s) const {
     rosbag::Bag bag(file(name), rosbag::bagmode::Write);
     std::mt19937 random(1);

@@ -126,7 +126,7 @@ TEST_F(ImuRotationProgramTest, InputThatCannotBeUsedIsRefused) {
   expectRefusal("a.bag --frobnicate", "frobnicate");
 }
 
-/// A flight of ten seconds (EuRoC MH_01): nobody wiggled anything for us.
+/// A flight of ten seconds (EuRoC MH_01) without deliberate turns.
 TEST_F(ImuRotationProgramTest, ARealRecordingGivesItsKnownExtrinsics) {
   const char* data = std::getenv("STEREO_NAV_DATA");
   if (data == nullptr) GTEST_SKIP() << "STEREO_NAV_DATA is not set";

@@ -9,11 +9,11 @@
 namespace stereo_nav::vision {
 namespace {
 
-/// Bright squares on black; FAST answers at their corners.
+/// Bright squares on black; FAST responds at their corners.
 cv::Mat squares(const std::vector<cv::Rect>& rectangles, int grey = 255) {
   cv::Mat image(200, 500, CV_8UC1, cv::Scalar(0));
   for (const auto& rectangle : rectangles) cv::rectangle(image, rectangle, cv::Scalar(grey), cv::FILLED);
-  // As a lens would: on perfect edges neighbours tie, and non-maximum suppression drops both.
+  // Blurred as by a lens: on perfect edges neighbours are equal, and non-maximum suppression drops both.
   cv::GaussianBlur(image, image, cv::Size(5, 5), 0.8);
   return image;
 }

@@ -11,15 +11,15 @@ namespace {
 
 class EpipolarErrorTest : public ::testing::Test {
  protected:
-  /// Where the right camera, turned by `roll_rad` about its axis and with a focal length `zoom` times the
-  /// left one's, shows what it ought to show at `right_px`; 1.5 px too low on top.
+  /// Where the right camera shows what belongs at `right_px`: it is turned by `roll_rad` about its axis, has
+  /// a focal length `zoom` times the left one's, and shows everything 1.5 px too low.
   Eigen::Vector2d disturbed(const Eigen::Vector2d& right_px) const {
     const Eigen::Vector2d centre(calibration.right_cx, calibration.cy);
     return centre + kZoom * (Eigen::Rotation2Dd(kRoll_rad) * (right_px - centre)) +
            Eigen::Vector2d(0.0, kNod_px);
   }
 
-  /// Matches all over the image, `outliers` of which (a share) are anywhere.
+  /// Matches all over the image; the share `outliers` of them are at arbitrary places.
   void teach(EpipolarError& error, int matches, double outliers) {
     std::uniform_real_distribution<double> x(0.0, calibration.width);
     std::uniform_real_distribution<double> y(0.0, calibration.height);
@@ -58,7 +58,7 @@ TEST_F(EpipolarErrorTest, LearnsNodRollAndFocalLengthDespiteOutliers) {
     const Eigen::Vector2d seen = disturbed(ideal);
     const Eigen::Vector2d corrected = seen - error.at(seen);
     EXPECT_NEAR(corrected.y(), ideal.y(), 0.05) << ideal.transpose();
-    // The nod's own share of the columns is below a tenth of it here.
+    // The effect of the pitch on the columns is below a tenth of that here.
     EXPECT_NEAR(corrected.x(), ideal.x(), 0.3) << ideal.transpose();
   }
 }

@@ -82,7 +82,7 @@ TEST(PatchTest, StaysInTheImage) {
   EXPECT_FALSE(patch->align(image.level(0), {500.0F, 4.0F}, 10, 0.01));
 }
 
-/// Patch once more, number by number, with nothing rounded but what its definition rounds.
+/// A second implementation of Patch, value by value, which rounds only where the definition rounds.
 class PlainPatch {
  public:
   using Grid = std::vector<int>;  ///< eighths of a grey level, row by row
@@ -145,7 +145,7 @@ class PlainPatch {
     return grid;
   }
 
-  /// What is left of the sum is taken from the first values, 1 from each.
+  /// The remainder of the sum is subtracted from the first values, 1 from each.
   static void removeMean(Grid& grid) {
     const auto count = static_cast<int>(grid.size());
     const int sum = std::accumulate(grid.begin(), grid.end(), 0);
@@ -180,7 +180,8 @@ cv::Mat noise(int darkest, int brightest, double smooth_px) {
 TEST(PatchTest, VectorInstructionsGiveWhatPlainArithmeticGives) {
   cv::Mat black_and_white;
   cv::threshold(noise(0, 255, 1.5), black_and_white, 100, 255, cv::THRESH_BINARY);
-  // Faint ones show a single unit too much, the strongest contrast comes next to the limit of 32 bits.
+  // Faint patches reveal an error of a single unit; the strongest contrast comes close to the limit of 32
+  // bits.
   for (const cv::Mat& image : {noise(100, 103, 1.5), noise(252, 255, 1.5), noise(0, 255, 1.5),
                                noise(0, 255, 0.7), black_and_white}) {
     const cv::Mat level = ImagePyramid(image, 1).level(0);

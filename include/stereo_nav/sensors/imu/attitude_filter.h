@@ -69,7 +69,7 @@ class AttitudeFilter {
   const Eigen::Vector3d& gyroBias() const { return gyro_bias_; }
 
  protected:
-  /// What a sample tells about the directions of up and of the magnetic field.
+  /// The directions of up and of the magnetic field that a sample gives.
   struct Directions {
     std::optional<Eigen::Vector3d> up;     ///< measured, unit, IMU frame
     std::optional<Eigen::Vector3d> field;  ///< measured, unit, IMU frame
@@ -78,7 +78,7 @@ class AttitudeFilter {
   /// `gyro_bias_`.
   virtual void step(const Eigen::Vector3d& angular_velocity, const Directions& measured, double dt_s) = 0;
 
-  /// As given to the constructor.
+  /// The parameters given to the constructor.
   AttitudeParams params_;
   /// The attitude that step() advances.
   Eigen::Quaterniond q_world_imu_ = Eigen::Quaterniond::Identity();

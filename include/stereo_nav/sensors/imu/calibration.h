@@ -69,7 +69,7 @@ class GyroCalibrator {
     Eigen::Vector3d stddev = Eigen::Vector3d::Zero();  ///< rad/s, of a single sample
     std::string message;  ///< what was found, or why it is refused and what to do
   };
-  /// Of all samples so far.
+  /// The result from all samples so far.
   Result result() const;
 
  private:

@@ -19,7 +19,7 @@ TEST(GreedyClique, WithoutEdgesOneNodeRemains) {
 }
 
 TEST(GreedyClique, FindsTheRigidGroupAmongLoosePairs) {
-  // 0-1-2-3 all connected; 4 and 5 hang on single members.
+  // 0-1-2-3 are all connected; 4 and 5 are connected to single members.
   ConsistencyGraph graph(6);
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = i + 1; j < 4; ++j) graph.connect(i, j);
@@ -30,8 +30,9 @@ TEST(GreedyClique, FindsTheRigidGroupAmongLoosePairs) {
 }
 
 TEST(GreedyClique, TakesTheNextMemberByConnectionsAmongTheCandidates) {
-  // Node 0 knows all. Among its neighbours 1 has the higher degree in the whole graph (it knows 6, 7, 8), but
-  // 3, 4, 5 know one another: the count among candidates must decide, as in the thesis.
+  // Node 0 is connected to all. Among its neighbours 1 has the higher degree in the whole graph (it is
+  // connected to 6, 7, 8), but 3, 4, 5 are connected to one another: the count among candidates must decide,
+  // as in the thesis.
   ConsistencyGraph graph(9);
   for (std::size_t i = 1; i <= 5; ++i) graph.connect(0, i);
   graph.connect(1, 2);

@@ -15,7 +15,7 @@ Vector6d steadyTwist() {
 
 class MotionModelTest : public ::testing::Test {
  protected:
-  /// The frame number `i` of a rig that moves with `twist`; what the model says of it before it is known.
+  /// Adds frame number `i` of a rig that moves with `twist`; returns what the model predicted for it.
   MotionPrior step(int i, const Vector6d& twist, double offset_s = 0.0) {
     const FrameTimes times(kPeriod_s * i, kPeriod_s * i + offset_s);
     const MotionPrior prior = model.prior(times);

@@ -32,7 +32,8 @@ class StereoOdometryTest : public ::testing::Test {
     return frames;
   }
 
-  /// As rolling shutters take it, in bands of rows; what moves on by `seconds(time)` of roomDrive().
+  /// The frame as rolling shutters take it, in bands of rows; at `time` the rig is where roomDrive() is at
+  /// `seconds(time)`.
   template <typename Seconds>
   StereoFrame rollingFrameAt(double time_s, double readout_s, const Seconds& seconds) const {
     constexpr int kBands = 12;
@@ -60,7 +61,7 @@ class StereoOdometryTest : public ::testing::Test {
     return result;
   }
 
-  /// Distance from the truth at the end of the course, or of one of another length, m.
+  /// Distance from the truth in m at the end of the course, or of a course that ends at `end_s`.
   static double endError(const FrameResult& result, double end_s = kPeriod_s * (kFrames - 1)) {
     const Eigen::Isometry3d truth = test::roomDrive(0.0).inverse() * test::roomDrive(end_s);
     return (result.T_start_camera.translation() - truth.translation()).norm();

@@ -61,7 +61,7 @@ TEST_F(StereoOdometryFaultsTest, FollowsThroughImagesBlurredByMotion) {
   }
 }
 
-/// Strong texture as wide as said, for something that moves on its own.
+/// Strong texture of the given width, for something that moves on its own.
 cv::Mat movingBlock(const vision::StereoCalibration& calibration, int width) {
   cv::RNG random(5);
   cv::Mat block(calibration.height, width, CV_8UC1);
@@ -97,7 +97,7 @@ TEST_F(StereoOdometryFaultsTest, IsNotCarriedAwayByWhatEntersTheView) {
 }
 
 TEST_F(StereoOdometryFaultsTest, SaysSoWhenSomethingThatMovesFillsTheView) {
-  // The rig stands; what passes before it at 4 m/s fills first half, then all of the view.
+  // The rig stands; something that passes before it at 4 m/s fills first half, then all of the view.
   constexpr double kFramePeriod_s = 1.0 / 30.0;
   constexpr int kSpeed_px = 20;
   const cv::Mat block = movingBlock(calibration, calibration.width);
@@ -113,7 +113,7 @@ TEST_F(StereoOdometryFaultsTest, SaysSoWhenSomethingThatMovesFillsTheView) {
     showBlock(block, calibration.width - kSpeed_px * (i - 4), calibration, frame);
     result = vo.process(frame);
     if (result.state == State::kLost) ++lost;
-    // Carried along, it would be metres away.
+    // An odometry that followed this motion would be metres away.
     EXPECT_LT(result.T_start_camera.translation().norm(), 0.25) << "frame " << i;
   }
   EXPECT_EQ(result.state, State::kTracking) << result.reason;

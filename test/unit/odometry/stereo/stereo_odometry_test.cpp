@@ -39,7 +39,7 @@ TEST_F(StereoOdometryTest, FollowsADriveWithARightCameraThatIsEarly) {
   EXPECT_LT(endError(result), 0.015);
 }
 
-/// Errors at the end of a drive with a rolling shutter of which the odometry knows, and does not, m.
+/// Errors in m at the end of a drive with a rolling shutter, when the odometry knows of it and when not.
 struct RollingErrors {
   double aware_m;
   double unaware_m;
@@ -107,7 +107,7 @@ TEST_F(StereoOdometryTest, StandsStillWithoutDrift) {
   EXPECT_LT(Eigen::AngleAxisd(drift.linear()).angle(), 1e-3);
 }
 
-/// Median of how far the inliers will be from the keyframe in the next frame, should they move on, px.
+/// Median distance in px of the inliers from the keyframe in the next frame, if they continue to move.
 double parallaxAhead(const FrameResult& result, const std::map<std::uint64_t, cv::Point2f>& keyframe) {
   std::vector<double> parallax;
   for (const FeatureReport& feature : result.features) {
@@ -123,7 +123,7 @@ TEST_F(StereoOdometryTest, MakesAKeyframeBeforeFeaturesHaveMovedTooFar) {
   StereoParams params;
   params.keyframes.min_tracked_share = 0.0;
   params.keyframes.max_parallax_px = 8.0;
-  // Frames from one keyframe to the next: slowly late, quickly right away.
+  // The next keyframe comes late in slow motion and at once in fast motion.
   for (const auto& [period_s, frames, fewest, most] :
        {std::tuple{0.02, 30, 5, 10}, std::tuple{0.05, 10, 2, 4}, std::tuple{0.2, 4, 1, 1}}) {
     StereoOdometry vo(params, calibration, Eigen::Matrix3d::Identity());
@@ -194,8 +194,8 @@ void expectEqual(const FrameResult& one, const FrameResult& other, std::size_t f
 TEST_F(StereoOdometryTest, AfterAResetARunEqualsAFirstRunToTheLastBit) {
   StereoOdometry first = odometry();
   StereoOdometry other = odometry();
-  // What is forgotten: a drive with a late right camera, an IMU and darkness; then two images of a rolling
-  // shutter, the second of which is covered, so that the start waits for its compensation.
+  // reset() must forget the following: a drive with a late right camera, an IMU and darkness; then two images
+  // of a rolling shutter, the second of which is covered, so that the start waits for its compensation.
   for (int i = 0; i < 200; ++i) {
     ImuSample sample;
     sample.time_s = 0.01 * i;

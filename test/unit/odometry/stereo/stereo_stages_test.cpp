@@ -77,7 +77,7 @@ TEST(NoisyRigidityTest, KeepsTheRigidAndFindsTheMover) {
 
 TEST(NoisyRigidityTest, FarPointsAreJudgedByTheirOwnNoise) {
   const vision::StereoCalibration calibration = test::roomCalibration();
-  // 1 m nearer: nothing to tell at 40 m, far too much at 2 m.
+  // Coming nearer by 1 m cannot be detected at 40 m, and is far too much at 2 m.
   const std::vector<RigidPoint> far = {{{0, 0, 40}, {0, 0, 39}}, {{5, 0, 40}, {5, 0, 40}}};
   const std::vector<RigidPoint> near = {{{0, 0, 2}, {0, 0, 1}}, {{0.5, 0, 2}, {0.5, 0, 2}}};
   EXPECT_TRUE(buildNoisyRigidityGraph(NoisyRigidityParams(), calibration, far).connected(0, 1));

@@ -1,4 +1,4 @@
-// Controls, and what an exposure time that is known is used for.
+// Controls, and the use of a known exposure time.
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 
@@ -83,7 +83,7 @@ TEST_F(StereoCameraTest, AnAutomaticExposureThatTheCameraDoesNotTellIsNotBelieve
   start(config());
   ASSERT_TRUE(morePairsCome());
   EXPECT_TRUE(rig_->left().exposure_unknown);
-  // One that changes while nobody sets it is alive, whatever the driver's flags say.
+  // A control that changes while nobody sets it is in use, whatever the driver's flags say.
   kernel_.change(0, [](FakeCamera& camera) { camera.controls[1].value = 24; });
   EXPECT_TRUE(comesTrue([this] { return !rig_->left().exposure_unknown; }));
   ASSERT_TRUE(morePairsCome());
@@ -95,7 +95,7 @@ TEST_F(StereoCameraTest, AnAutomaticExposureThatTheCameraDoesNotTellIsNotBelieve
 /// The right camera follows the left one's exposure and gain.
 class MatchExposureTest : public StereoCameraTest {
  protected:
-  /// Of the left camera; the right one's are automatic at first.
+  /// Sets mode and flags of the left camera; the right one is automatic at first.
   void startWith(std::int32_t mode, std::uint32_t flags) {
     kernel_.change(0, [&](FakeCamera& camera) { camera.controls = controls(mode, 30, flags); });
     kernel_.change(1, [](FakeCamera& camera) { camera.controls = controls(3, 5, 0); });

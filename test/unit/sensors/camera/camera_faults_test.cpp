@@ -1,4 +1,4 @@
-// What a camera can do wrong, and that it comes back.
+// The faults that a camera can have, and its recovery from each.
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 

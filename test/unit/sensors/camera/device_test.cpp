@@ -17,7 +17,7 @@ namespace {
 
 const FormatRequest kRequest{PixelFormat::kAny, 32, 16, 250.0};
 
-/// What the failure of `attempt` says.
+/// Message of the failure of `attempt`.
 template <class Attempt>
 std::string messageOf(Attempt&& attempt) {
   try {

@@ -1,4 +1,4 @@
-// What list_cameras says.
+// The output of list_cameras.
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 

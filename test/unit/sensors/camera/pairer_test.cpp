@@ -21,7 +21,7 @@ Frame frameAt(std::int64_t time_ns, std::uint32_t sequence) {
   return frame;
 }
 
-/// A frame's way: exposed at `time_ns`, handed to the pairer at `arrival_ns`.
+/// A frame that is exposed at `time_ns` and handed to the pairer at `arrival_ns`.
 struct Event {
   std::int64_t arrival_ns;
   Side side;
@@ -99,7 +99,7 @@ Result run(const Stream& left, const Stream& right, int frames, std::int64_t max
   return result;
 }
 
-/// What holds of every stream whatever happens: order, each frame once, max_skew, bounded memory.
+/// What must hold for every stream, whatever happens: order, each frame once, max_skew, bounded memory.
 void expectSound(const Result& result, std::int64_t max_skew = kMaxSkew) {
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     EXPECT_LE(std::abs(result.pairs[i].timeOffset_ns()), max_skew);

@@ -15,7 +15,7 @@
 
 namespace stereo_nav::camera {
 
-/// A stereo camera under test and all that it delivered and said.
+/// A stereo camera under test, with all pairs and messages that it delivered.
 class StereoRig {
  public:
   StereoRig(Kernel& kernel, DeviceFinder finder) : kernel_(kernel), finder_(std::move(finder)) {}
@@ -51,7 +51,7 @@ class StereoRig {
     return std::exchange(pairs_, {});
   }
 
-  /// Without, the pairs are kept with stamps only. To be called before start().
+  /// Whether pairs are kept with their images or with stamps only. To be called before start().
   void keepImages(bool keep) { keep_images_ = keep; }
 
   StereoCamera& camera() { return *stereo_; }
@@ -68,7 +68,7 @@ class StereoRig {
     return log_;
   }
 
-  /// Waits generously; false when it does not come true.
+  /// Waits for a generous time; false when the condition does not become true.
   template <class Condition>
   static bool comesTrue(Condition&& condition) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(90);
@@ -95,7 +95,7 @@ class StereoRig {
   std::unique_ptr<StereoCamera> stereo_;
 };
 
-/// What holds of pairs whatever the cameras do.
+/// What must hold for pairs, whatever the cameras do.
 inline void expectOrdered(const std::vector<StereoImages>& pairs) {
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     EXPECT_GT(pairs[i].pair.left.time_ns, pairs[i - 1].pair.left.time_ns);

@@ -74,7 +74,7 @@ TEST_P(BothFilters, IntegrateATurnToItsAngle) {
   EXPECT_NEAR(heading(filter->q_world_imu()) / kDegree, 90.0, 1e-2);
 }
 
-/// Roll and pitch RMS at most 1 degree under the noise of the module; yaw drifts by nothing but the noise.
+/// Roll and pitch RMS at most 1 degree under the noise of the module; yaw drifts by the noise only.
 TEST_P(BothFilters, HoldTheHorizonOnASwayingRobot) {
   const auto filter = makeAttitudeFilter(paramsOf(GetParam()));
   const Motion motion = swaying();
@@ -97,7 +97,8 @@ TEST_P(BothFilters, HoldTheHorizonOnASwayingRobot) {
   EXPECT_LE(std::abs(last.yaw_deg - first.yaw_deg), 1.0);
 }
 
-/// The same robot while it drives at up to 0.9 m/s: it accelerates, brakes, and feels its curves sideways.
+/// The same robot while it drives at up to 0.9 m/s: it accelerates, brakes, and senses the lateral
+/// acceleration of its curves.
 TEST_P(BothFilters, HoldTheHorizonOfADrivingRobot) {
   const auto filter = makeAttitudeFilter(paramsOf(GetParam()));
   const Motion motion = swaying();

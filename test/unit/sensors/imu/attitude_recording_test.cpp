@@ -48,7 +48,7 @@ struct Recording {
   std::vector<Truth> truth;
 
   double start_s() const { return truth.front().time_s; }
-  /// Nothing more than 3 ms away.
+  /// Ground truth within 3 ms of `time_s`, or none.
   const Truth* truthAt(double time_s) const {
     const auto at = std::lower_bound(truth.begin(), truth.end(), time_s - 3e-3,
                                      [](const Truth& t, double wanted_s) { return t.time_s < wanted_s; });
@@ -108,7 +108,7 @@ struct FilterError {
   int count = 0;
 };
 
-/// Of the filter's orientation from `start_s` on.
+/// Errors of the filter's orientation from `start_s` on.
 FilterError errorAgainstTruth(const Recording& recording, const Offsets& offsets, double start_s,
                               AttitudeMethod method) {
   const auto filter = makeAttitudeFilter(paramsOf(method));

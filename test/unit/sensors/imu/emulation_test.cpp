@@ -37,7 +37,7 @@ TEST(MismatchedReceiver, EqualRatesChangeNothing) {
   std::mt19937 random(1);
   Bytes sent;
   for (int i = 0; i < 1000; ++i) sent.push_back(static_cast<std::uint8_t>(random()));
-  // A few per cent are within what serial lines stand.
+  // Serial lines tolerate a few per cent.
   for (const int receiver_baud : {115200, 117000, 113000}) {
     MismatchedReceiver receiver(115200, receiver_baud);
     Bytes out;

@@ -30,7 +30,7 @@ class ImuDeviceTest : public testing::Test {
     device_->poll(timeout_s, [this](const ImuReading& reading) { readings_.push_back(reading); });
   }
 
-  /// Polls until the condition holds; generous, since it ends as soon as it does.
+  /// Polls until the condition holds. The limit is generous, since polling ends as soon as it holds.
   bool pollUntil(
       const std::function<bool()>& condition, const std::function<void()>& meanwhile = [] {}) {
     for (const double end_s = steadyNow_s() + 20.0; steadyNow_s() < end_s;) {
