@@ -7,11 +7,11 @@ DRIVE.bag holds odom, ground_truth/odom and ground_truth/waypoint.
 """
 import argparse
 import bisect
-import subprocess
 import sys
 
 import rosbag
 
+import plots
 import thesis_drives
 
 LEAST_SHARE_ANSWERED = 0.95  # of the pairs, by one odometry message each
@@ -35,15 +35,12 @@ def at(path, time_s):
 
 
 def draw(picture, estimate, truth):
-    def block(rows):
-        return "".join("%.4f %.4f\n" % (x, y) for _, x, y in rows) + "e\n"
+    def top_view(path):
+        return [(x, y) for _, x, y in path]
 
-    script = ("set terminal svg size 800,520 background 'white'\nset output '%s'\nset size ratio -1\nset grid\n"
-              "set xlabel 'x (m)'\nset ylabel 'y (m)'\nset key outside below samplen 2\n"
-              "plot '-' with lines lw 2 title 'truth', '-' with lines lw 2 title 'odometry', "
-              "'-' with points pt 6 title 'way-points'\n" % picture)
-    script += block(truth) + block(estimate) + "".join("%g %g\n" % w for w in thesis_drives.WAYPOINTS) + "e\n"
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    plots.lines(picture, "x (m)", "y (m)",
+                [("truth", "lines ls 6", top_view(truth)), ("odometry", "lines ls 1", top_view(estimate)),
+                 ("way-points", "points ls 2 pt 6", thesis_drives.WAYPOINTS)], "set size ratio -1\n", height_px=520)
 
 
 def print_table(estimates):

@@ -25,10 +25,6 @@ EpipolarError::EpipolarError(const EpipolarErrorParams& params, const StereoCali
     : params_(params), calibration_(calibration) {
   const double ratio = kMatchSigma_px / params.prior_sigma_px;
   prior_ = ratio * ratio * Eigen::Matrix3d::Identity();
-  reset();
-}
-
-void EpipolarError::reset() {
   coefficients_px_.setZero();
   information_.setZero();
   moments_.setZero();

@@ -35,7 +35,6 @@ class EpipolarError {
   void add(const Eigen::Vector2d& right_px, double error_px);
   /// Draws the conclusion from the matches added.
   void learn();
-  void reset();
 
  private:
   Eigen::Vector3d basis(const Eigen::Vector2d& right_px) const;

@@ -13,8 +13,6 @@ cv::Scalar colourOf(odometry::FeatureReport::Fate fate) {
       return {0, 220, 0};
     case odometry::FeatureReport::Fate::kRejected:
       return {0, 0, 230};
-    case odometry::FeatureReport::Fate::kTracked:
-      return {0, 220, 230};
     case odometry::FeatureReport::Fate::kNoDepth:
       return {230, 120, 0};
     case odometry::FeatureReport::Fate::kDetected:

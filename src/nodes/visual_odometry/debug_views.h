@@ -11,7 +11,7 @@
 namespace stereo_nav::nodes {
 
 /// Left image in which each feature has the colour of its result and a line from its previous position: green
-/// inlier, red rejected, yellow tracked, blue without depth, white newly detected. CV_8UC3, BGR.
+/// inlier, red rejected, blue without depth, white newly detected. CV_8UC3, BGR.
 cv::Mat drawFeatures(const cv::Mat& left, const odometry::FrameResult& result);
 
 /// Features of known depth: x, y, z (left optical frame, m), rgb (the colours of drawFeatures) and id.

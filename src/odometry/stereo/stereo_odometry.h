@@ -81,7 +81,7 @@ class StereoOdometry : public Odometry {
   bool previous_is_keyframe_ = false;  ///< the last frame that had a pose
 
   bool start_needs_compensation_ = false;  ///< the first frame is not freed from the rolling shutter yet
-  int lost_frames_ = 0;
+  int lost_frames_ = 0;  ///< since the last tracked frame; a new map alone does not end the count
   bool mover_fills_view_ = false;  ///< something that moves on its own has done so since the map began
 };
 

@@ -1,13 +1,11 @@
-#include <message_filters/subscriber.h>
-#include <message_filters/sync_policies/approximate_time.h>
-#include <message_filters/synchronizer.h>
+#include <fmt/format.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 
-#include <boost/bind/bind.hpp>
 #include <optional>
 
+#include "ros/frame_synchroniser.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/conversions.h"
 #include "stereo_nav/ros/topics.h"
@@ -23,23 +21,14 @@ using sensor_msgs::Image;
 /// The newest pair and the newest camera_infos of the running cameras.
 class Listener {
  public:
-  Listener() {
-    using boost::placeholders::_1;
-    using boost::placeholders::_2;
-    pairs_.registerCallback(boost::bind(&Listener::takePair, this, _1, _2));
-    left_.registerCallback([this](const Image::ConstPtr&) { ++left_images_; });
-    right_.registerCallback([this](const Image::ConstPtr&) { ++right_images_; });
-  }
-
   /// A pair is handed out once.
   std::optional<ImagePair> takeNewest() {
-    if (!left_image_) return std::nullopt;
-    char name[40];
-    std::snprintf(name, sizeof name, "%.3f", left_image_->header.stamp.toSec());
+    if (!newest_) return std::nullopt;
     // Copies: grey images share their pixels with the messages, which the next pair replaces.
-    ImagePair pair{name, ros_io::toMono8(left_image_).clone(), ros_io::toMono8(right_image_).clone(),
-                   (right_image_->header.stamp - left_image_->header.stamp).toSec()};
-    left_image_.reset();
+    ImagePair pair{fmt::format("{:.3f}", newest_->left_stamp.toSec()), ros_io::toMono8(newest_->left).clone(),
+                   ros_io::toMono8(newest_->right).clone(),
+                   (newest_->right_stamp - newest_->left_stamp).toSec()};
+    newest_.reset();
     return pair;
   }
 
@@ -60,25 +49,46 @@ class Listener {
   }
 
  private:
-  using Policy = message_filters::sync_policies::ApproximateTime<Image, Image>;
   static constexpr int kQueue = 5;
 
-  void takePair(const Image::ConstPtr& left, const Image::ConstPtr& right) {
-    left_image_ = left;
-    right_image_ = right;
+  /// Wider than the odometry's own limit: a pair that is badly apart is judged rather than left out.
+  static ros_io::FrameSynchroniserParams pairing() {
+    ros_io::FrameSynchroniserParams params;
+    params.max_skew_s = 0.5;
+    params.disparity = odometry::DisparityUse::kNone;
+    return params;
+  }
+
+  void takePairs() {
+    while (auto frame = pairs_.take()) newest_ = std::move(frame);
   }
 
   ros::NodeHandle handle_;
-  message_filters::Subscriber<Image> left_{handle_, topics::kLeftImage, kQueue};
-  message_filters::Subscriber<Image> right_{handle_, topics::kRightImage, kQueue};
-  message_filters::Synchronizer<Policy> pairs_{Policy(kQueue), left_, right_};
+  ros_io::FrameSynchroniser pairs_{pairing()};
+  std::optional<ros_io::FrameMessages> newest_;
+  std::size_t left_images_ = 0, right_images_ = 0;
+  ros::Subscriber left_ =
+      handle_.subscribe<Image>(topics::kLeftImage, kQueue, [this](const Image::ConstPtr& image) {
+        ++left_images_;
+        pairs_.addLeft(image, ros_io::SteadyTime::clock::now());
+        takePairs();
+      });
+  ros::Subscriber right_ =
+      handle_.subscribe<Image>(topics::kRightImage, kQueue, [this](const Image::ConstPtr& image) {
+        ++right_images_;
+        pairs_.addRight(image);
+        takePairs();
+      });
+  ros::Subscriber sync_ =
+      handle_.subscribe<StereoSync>(topics::kSync, kQueue, [this](const StereoSyncConstPtr& sync) {
+        pairs_.addSync(sync);
+        takePairs();
+      });
   CameraInfo::ConstPtr left_info_, right_info_;
   ros::Subscriber left_info_subscriber_ = handle_.subscribe<CameraInfo>(
       topics::kLeftInfo, 1, [this](const CameraInfo::ConstPtr& info) { left_info_ = info; });
   ros::Subscriber right_info_subscriber_ = handle_.subscribe<CameraInfo>(
       topics::kRightInfo, 1, [this](const CameraInfo::ConstPtr& info) { right_info_ = info; });
-  Image::ConstPtr left_image_, right_image_;
-  std::size_t left_images_ = 0, right_images_ = 0;
 };
 
 }  // namespace

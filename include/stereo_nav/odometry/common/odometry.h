@@ -40,7 +40,7 @@ enum class State { kInitialising, kTracking, kCoasting, kLost };  // as in VoSta
 /// What became of one feature of the left image, for pictures and clouds.
 struct FeatureReport {
   /// How far a feature came: kInlier passed every test.
-  enum class Fate { kDetected, kTracked, kNoDepth, kRejected, kInlier };
+  enum class Fate { kDetected, kNoDepth, kRejected, kInlier };
   std::uint64_t id = 0;  ///< the same while the feature is followed
   cv::Point2f
       previous_px;  ///< where it was in the frame the motion is measured against; equals current_px if new

@@ -1,4 +1,4 @@
-"""Pictures of docs/experiments.md, drawn by gnuplot: one look for all."""
+"""Pictures of the scripts and the experiments, drawn by gnuplot: one look for all."""
 import statistics
 import subprocess
 
