@@ -6,6 +6,7 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 
+#include "core/gauss_newton.h"
 #include "vision/reprojection.h"
 
 namespace stereo_nav::calibration {
@@ -57,12 +58,12 @@ std::optional<BoardPose> estimateBoardPose(const vision::StereoCalibration& cali
       squares += residual.error_px.squaredNorm();
       pose.residual_px.push_back(residual.error_px);
     }
-    const Eigen::LDLT<Matrix6d> solver(information);
-    if (solver.info() != Eigen::Success || !solver.isPositive()) return std::nullopt;
+    const auto step = gaussNewtonStep(information, gradient);
+    if (!step) return std::nullopt;
     const auto freedom = static_cast<double>(4 * corners.size() - 6);
     pose.T_camera_board = view.T_camera_world;
     pose.covariance = squares / freedom * information.inverse();
-    view.T_camera_world = renormalised(expMotion(solver.solve(-gradient)) * view.T_camera_world);
+    view.T_camera_world = renormalised(expMotion(*step) * view.T_camera_world);
   }
   if (!pose.T_camera_board.matrix().allFinite()) return std::nullopt;
   return pose;

@@ -115,6 +115,8 @@ Fit refine(const std::vector<Turn>& turns, const ImuTurns& imu, Fit fit, ImuCame
   for (int iteration = 0; iteration <= kIterations; ++iteration) {
     last = linearise(turns, imu, fit, 2.0 * spreadOf(turns, imu, fit));
     if (iteration == kIterations) break;
+    // Turns about one axis leave directions undetermined: the smallest step then, where gaussNewtonStep()
+    // gives none.
     const Vector7d step = -last.information.completeOrthogonalDecomposition().solve(last.gradient);
     fit.R_camera_imu = expRotation(step.head<3>()) * fit.R_camera_imu;
     fit.bias_rad_s += step.segment<3>(3);

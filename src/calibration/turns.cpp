@@ -46,9 +46,9 @@ ImuTurns::ImuTurns(const std::vector<ImuSample>& samples, const Eigen::Vector3d&
 
 std::optional<Eigen::Vector3d> ImuTurns::turn(const Turn& camera, double offset_s) const {
   // increment() takes the earlier frame's coordinates into the later one's.
-  const auto R_to_from = history_.increment(camera.from_s + offset_s, camera.to_s + offset_s);
-  if (!R_to_from) return std::nullopt;
-  return logRotation(R_to_from->transpose());
+  const auto R_current_previous = history_.increment(camera.from_s + offset_s, camera.to_s + offset_s);
+  if (!R_current_previous) return std::nullopt;
+  return logRotation(R_current_previous->transpose());
 }
 
 std::string refuseData(const std::vector<Turn>& turns, const std::vector<ImuSample>& imu,

@@ -48,11 +48,13 @@ void SensorMounting::describe(ParameterVisitor& visitor) {
   const Range<double> near{-100.0, 100.0};
   const Range<double> turn{-360.0, 360.0};
   visitor.real("x_m", x_m, near, "m", "forward of base_link's origin");
-  visitor.real("y_m", y_m, near, "m", "to the left of it");
-  visitor.real("z_m", z_m, near, "m", "above it");
+  visitor.real("y_m", y_m, near, "m", "to the left of base_link's origin");
+  visitor.real("z_m", z_m, near, "m", "above base_link's origin");
   visitor.real("roll_deg", roll_deg, turn, "deg", "about base_link's x axis, applied first");
-  visitor.real("pitch_deg", pitch_deg, turn, "deg", "about its y axis, then; positive looks down");
-  visitor.real("yaw_deg", yaw_deg, turn, "deg", "about its z axis, last; positive turns left");
+  visitor.real("pitch_deg", pitch_deg, turn, "deg",
+               "about base_link's y axis, applied second; positive looks down");
+  visitor.real("yaw_deg", yaw_deg, turn, "deg",
+               "about base_link's z axis, applied last; positive turns left");
 }
 
 Eigen::Isometry3d SensorMounting::T_base_sensor() const {

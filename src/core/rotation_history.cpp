@@ -43,6 +43,13 @@ bool RotationHistory::covers(double from_s, double to_s) const {
   return true;
 }
 
+std::optional<Eigen::Matrix3d> RotationHistory::increment(double from_s, double to_s,
+                                                          const Eigen::Matrix3d& R_camera_imu) const {
+  const auto R_current_previous_imu = increment(from_s, to_s);
+  if (!R_current_previous_imu) return std::nullopt;
+  return Eigen::Matrix3d(R_camera_imu * *R_current_previous_imu * R_camera_imu.transpose());
+}
+
 std::optional<Eigen::Quaterniond> RotationHistory::attitude(double time_s) const {
   if (!covers(time_s, time_s)) return std::nullopt;
   const auto after = std::lower_bound(samples_.begin(), samples_.end(), time_s, earlier);

@@ -30,6 +30,10 @@ class RotationHistory {
   /// order of time); nothing when the samples do not cover the interval.
   std::optional<Eigen::Matrix3d> increment(double from_s, double to_s) const;
 
+  /// The same rotation of a camera that is fixed to the IMU.
+  std::optional<Eigen::Matrix3d> increment(double from_s, double to_s,
+                                           const Eigen::Matrix3d& R_camera_imu) const;
+
   /// Attitude (world <- IMU) at an instant; nothing where the samples carry none.
   std::optional<Eigen::Quaterniond> attitude(double time_s) const;
 

@@ -1,5 +1,7 @@
 #include "stereo_nav/core/trajectory.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
 
@@ -48,13 +50,6 @@ Eigen::Isometry3d poseOfKittiRow(const TextRow& row) {
   return pose;
 }
 
-template <class... Numbers>
-std::string formatted(const char* format, Numbers... numbers) {
-  char buffer[512];
-  std::snprintf(buffer, sizeof buffer, format, numbers...);
-  return buffer;
-}
-
 }  // namespace
 
 Trajectory readTum(const std::string& path) {
@@ -97,8 +92,8 @@ std::string toTum(const Trajectory& trajectory) {
     Eigen::Quaterniond q(pose.T_world_body.linear());
     if (q.w() < 0.0) q.coeffs() *= -1.0;
     const Eigen::Vector3d p = pose.T_world_body.translation();
-    text += formatted("%.9f %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", pose.time_s, p.x(), p.y(), p.z(), q.x(),
-                      q.y(), q.z(), q.w());
+    text += fmt::format("{:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n", pose.time_s, p.x(),
+                        p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
   }
   return text;
 }
@@ -107,7 +102,7 @@ std::string toKitti(const Trajectory& trajectory) {
   std::string text;
   for (const auto& pose : trajectory) {
     for (int i = 0; i < 12; ++i) {
-      text += formatted(i == 0 ? "%.9e" : " %.9e", pose.T_world_body.matrix()(i / 4, i % 4));
+      text += fmt::format("{}{:.9e}", i == 0 ? "" : " ", pose.T_world_body.matrix()(i / 4, i % 4));
     }
     text += '\n';
   }
@@ -121,11 +116,15 @@ Trajectory ofOtherBody(const Trajectory& trajectory, const Eigen::Isometry3d& T_
 }
 
 double pathLength(const Trajectory& trajectory) {
+  std::vector<Eigen::Vector3d> positions_m;
+  for (const auto& pose : trajectory) positions_m.push_back(pose.T_world_body.translation());
+  return pathLength(positions_m);
+}
+
+double pathLength(const std::vector<Eigen::Vector3d>& positions_m) {
   double length_m = 0.0;
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    length_m +=
-        (trajectory[i].T_world_body.translation() - trajectory[i - 1].T_world_body.translation()).norm();
-  }
+  for (std::size_t i = 1; i < positions_m.size(); ++i)
+    length_m += (positions_m[i] - positions_m[i - 1]).norm();
   return length_m;
 }
 

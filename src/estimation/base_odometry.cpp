@@ -35,7 +35,7 @@ const BaseEstimate& BaseOdometry::update(const odometry::FrameResult& result, do
 }
 
 void BaseOdometry::setTwist(const odometry::FrameResult& result, double interval_s) {
-  const Eigen::Isometry3d T_previous_base = basePose(T_base_camera_, result.T_previous_camera);
+  const Eigen::Isometry3d T_previous_base = basePose(T_base_camera_, result.T_previous_current);
   const Matrix6d covariance = covariance_.addMotion(result, T_previous_base, interval_s);
   // After lost frames the motion may span more than the last interval: its speed is unknown.
   const bool is_known = result.state != odometry::State::kLost && !previous_lost_;

@@ -65,14 +65,6 @@ std::vector<Eigen::Vector3d> positions(const Poses& poses) {
   return result;
 }
 
-double pathLength(const Poses& poses) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    length_m += (poses[i].translation() - poses[i - 1].translation()).norm();
-  }
-  return length_m;
-}
-
 /// Absolute, relative and end errors of the left camera.
 void addCameraErrors(const AssociatedPoses& associated, const Eigen::Isometry3d& T_base_camera,
                      Evaluation& evaluation) {
@@ -80,7 +72,7 @@ void addCameraErrors(const AssociatedPoses& associated, const Eigen::Isometry3d&
   const Poses truth = moved(identity, associated.T_world_base, T_base_camera);
   const Poses estimate = moved(identity, associated.T_odom_base, T_base_camera);
   EvaluationSummary& summary = evaluation.summary;
-  summary.path_length_m = pathLength(truth);
+  summary.path_length_m = pathLength(positions(truth));
 
   const Eigen::Isometry3d T_world_odom = alignRigidly(positions(estimate), positions(truth));
   const auto aligned = positions(moved(T_world_odom, estimate, identity));

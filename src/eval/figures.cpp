@@ -1,5 +1,7 @@
 #include "eval/figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,9 +18,7 @@ constexpr double kNone = EvaluationSummary::kUnknown;  // gnuplot leaves a gap i
 
 std::string toText(double value) {
   if (!std::isfinite(value)) return "NaN";
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.7g", value);
-  return buffer;
+  return fmt::format("{:.7g}", value);
 }
 
 /// A gnuplot data block `$name`.
@@ -181,12 +181,11 @@ Figure stagesOverTime(const Evaluation& evaluation, const std::vector<FrameRecor
                                             "#4fa6a6", "#8c6d46", "#d583b5", "#6f7b85", "#a8b33a"};
   std::string plot;
   for (std::size_t s = stages.size(); s-- > 0;) {
-    char median[32];
-    std::snprintf(median, sizeof median, " (%.2f ms)", stages[s].second);
+    const std::string median = fmt::format(" ({:.2f} ms)", stages[s].second);
     plot += "$times using 1:" + std::to_string(s + 3) + " with filledcurves y1=0 lc rgb '" +
             colours[s % colours.size()] + "' title '" + gnuplotEscaped(stages[s].first) + median + "', ";
   }
-  return {"stages", "Time per stage, one on top of the other, with their medians; line: the whole frame.",
+  return {"stages", "Time per stage, stacked, with medians in the legend; the line is the whole frame.",
           header("stages", 380) + dataBlock("times", rows) +
               "set key outside right center vertical noenhanced\nset yrange [0:*]\nset style fill solid\n" +
               timeAxis(evaluation) + "set ylabel 'time per frame [ms]'\nplot " + plot +

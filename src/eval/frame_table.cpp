@@ -1,5 +1,6 @@
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "stereo_nav/eval/evaluation.h"
 
@@ -8,9 +9,7 @@ namespace {
 
 std::string cell(double value) {
   if (!std::isfinite(value)) return "";
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.9g", value);
-  return buffer;
+  return fmt::format("{:.9g}", value);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "stereo_nav/eval/report.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
 
@@ -46,9 +48,7 @@ std::string htmlEscaped(const std::string& text) {
 
 std::string number(double value, int digits, const std::string& unit) {
   if (!std::isfinite(value)) return "\u2013";
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%.*f", digits, value);
-  return std::string(buffer) + (unit.empty() ? "" : "\u202f" + unit);
+  return fmt::format("{:.{}f}", value, digits) + (unit.empty() ? "" : "\u202f" + unit);
 }
 
 std::string tile(const std::string& label, const std::string& value, bool bad = false) {

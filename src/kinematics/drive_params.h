@@ -30,7 +30,7 @@ struct WheelParams {
   double radius_m = 0.05;
   /// Steering is possible from minus to plus this angle; 180 and more mean that it turns without end.
   double max_steering_deg = 360.0;
-  /// Of the encoder, in one turn of the wheel: with the gear and all edges that are counted.
+  /// Pulses that the encoder counts in one turn of the wheel, gear and counted edges included.
   double pulses_per_turn = 1024.0;
   bool encoder_reversed = false;  ///< the encoder counts down when the wheel rolls in its direction
 

@@ -62,9 +62,6 @@ class FrameSynchroniser {
 
   /// Number of left images that never became part of a frame.
   std::uint64_t dropped() const { return lefts_.dropped() + incomplete_; }
-  ros::Time newestLeft() const { return lefts_.newest(); }
-  ros::Time newestRight() const { return rights_.newest(); }
-  ros::Time newestDisparity() const { return disparities_.newest(); }
 
  private:
   struct Left {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/angles.h"
+
 namespace stereo_nav::sim {
 
 /// Counter-based random numbers: a draw is a pure function of (key, counter), so that results do not depend
@@ -31,7 +33,7 @@ inline double uniformDraw(std::uint64_t key, std::uint64_t counter) {
 /// Mean 0, standard deviation 1 (Box and Muller).
 inline double normalDraw(std::uint64_t key, std::uint64_t counter) {
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniformDraw(key, 2 * counter)));
-  return radius * std::cos(2.0 * M_PI * uniformDraw(key, 2 * counter + 1));
+  return radius * std::cos(2.0 * kPi * uniformDraw(key, 2 * counter + 1));
 }
 
 /// Draws in sequence from one stream, for uses whose order is fixed.

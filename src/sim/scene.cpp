@@ -35,7 +35,7 @@ Interval cylinderSide(const Eigen::Vector3d& origin, const Eigen::Vector3d& dire
 
 Eigen::Vector3d Solid::position(double time_s) const {
   if (walk_m.isZero()) return p_world;
-  const double swing = 0.5 - 0.5 * std::cos(2.0 * M_PI * (time_s / walk_period_s + walk_phase));
+  const double swing = 0.5 - 0.5 * std::cos(2.0 * kPi * (time_s / walk_period_s + walk_phase));
   return p_world + Eigen::Vector3d(walk_m.x() * swing, walk_m.y() * swing, 0.0);
 }
 

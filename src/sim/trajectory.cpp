@@ -52,7 +52,7 @@ class Trajectory::Turn : public Piece {
   PlanarPose at(double time_s) const override {
     const double share = duration_s_ > 0.0 ? std::clamp(time_s / duration_s_, 0.0, 1.0) : 1.0;
     PlanarPose pose = start_;
-    pose.heading_rad += angle_rad_ * (share - std::sin(2.0 * M_PI * share) / (2.0 * M_PI));
+    pose.heading_rad += angle_rad_ * (share - std::sin(2.0 * kPi * share) / (2.0 * kPi));
     return pose;
   }
 
@@ -130,9 +130,9 @@ Eigen::Isometry3d Trajectory::pose(double time_s) const {
   // The sway of an uneven floor grows with the speed.
   const double sway = motion_.sway_deg * kRadPerDeg * planar.speed_mps / motion_.max_speed_mps;
   const double pitch =
-      sway * (0.7 * std::sin(2.0 * M_PI * 1.7 * time_s) + 0.3 * std::sin(2.0 * M_PI * 4.3 * time_s));
+      sway * (0.7 * std::sin(2.0 * kPi * 1.7 * time_s) + 0.3 * std::sin(2.0 * kPi * 4.3 * time_s));
   const double roll =
-      sway * (0.7 * std::sin(2.0 * M_PI * 1.3 * time_s) + 0.3 * std::sin(2.0 * M_PI * 3.7 * time_s));
+      sway * (0.7 * std::sin(2.0 * kPi * 1.3 * time_s) + 0.3 * std::sin(2.0 * kPi * 3.7 * time_s));
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();
   T_world_base.translation().head<2>() = planar.position;
   T_world_base.linear() = RollPitchYaw{roll, pitch, planar.heading_rad}.rotation();

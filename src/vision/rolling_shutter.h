@@ -14,7 +14,7 @@ class RollingShutter {
  public:
   explicit RollingShutter(const StereoCalibration& calibration) : calibration_(calibration) {}
 
-  /// For the images to come: from the first to the last row of the raw image.
+  /// Sets the readout time of the following images: from the first to the last row of the raw image, s.
   void setReadout(double readout_s) { readout_s_ = readout_s; }
   bool isGlobal() const { return readout_s_ == 0.0; }
   /// When the row of a pixel of the rectified image was taken, seconds after the stamp.

@@ -12,7 +12,7 @@ int main() {
   result.state = stereo_nav::odometry::State::kTracking;
   base.update(result, 0.0);
   result.T_start_camera.translation().x() = 0.2;
-  result.T_previous_camera = result.T_start_camera;
+  result.T_previous_current = result.T_start_camera;
   const stereo_nav::estimation::BaseEstimate& estimate = base.update(result, 0.1);
   expect(std::abs(estimate.T_odom_base.translation().x() - 0.2) < 1e-12,
          "the base has moved with the camera");

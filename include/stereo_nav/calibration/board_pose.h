@@ -36,6 +36,7 @@ struct BoardAngles {
   double pitch_rad;  ///< about the horizontal axis
   double roll_rad;   ///< about the viewing direction
 };
+/// Takes the rotation of a pose apart.
 BoardAngles boardAngles(const Eigen::Matrix3d& R_camera_board);
 
 /// RMS distance in px between the corners in one raw image and those of the pose that fits them best. It

@@ -4,19 +4,22 @@
 
 namespace stereo_nav {
 
+/// A twist, or a small motion: translation in m, rotation in rad.
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+/// The covariance of a twist, or a Jacobian with respect to one.
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// The cross product as a matrix: hat(v) w = v x w.
 Eigen::Matrix3d hat(const Eigen::Vector3d& v);
 
-/// SO(3): the rotation about the direction of the vector `angle` by its length in rad, as a quaternion or as
-/// a matrix.
+/// SO(3): the rotation about the direction of the vector `angle` by its length in rad, as a quaternion.
 Eigen::Quaterniond expQuaternion(const Eigen::Vector3d& angle);
+/// The same as a matrix.
 Eigen::Matrix3d expRotation(const Eigen::Vector3d& angle);
 
-/// The inverse of the two functions above: a rotation vector in rad, at most pi long.
+/// The inverse of expQuaternion(): a rotation vector in rad, at most pi long.
 Eigen::Vector3d logRotation(const Eigen::Quaterniond& q);
+/// The inverse of expRotation().
 Eigen::Vector3d logRotation(const Eigen::Matrix3d& R);
 
 /// Left Jacobian of SO(3): exp(angle + d) = exp(leftJacobian(angle) d) exp(angle) for a small d
@@ -27,6 +30,7 @@ Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& angle);
 /// that constant velocity, in its own axes, for one unit of time; logMotion() is the inverse (Barfoot 2017,
 /// eq. 7.85 and 7.86).
 Eigen::Isometry3d expMotion(const Vector6d& twist);
+/// The inverse of expMotion().
 Vector6d logMotion(const Eigen::Isometry3d& T);
 
 /// Takes a small motion that is expressed in frame b into frame a: T_a_b exp(d) = exp(adjoint(T_a_b) d)

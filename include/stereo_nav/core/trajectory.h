@@ -29,9 +29,10 @@ Trajectory readKitti(const std::string& path, const std::vector<double>& times_s
 /// Reads `times.txt` of a KITTI sequence: one stamp in seconds per line. Throws InputError as readTum() does.
 std::vector<double> readKittiTimes(const std::string& path);
 
-/// Return the text of a file in either format, with times to nanoseconds, positions to nanometres and
+/// Returns the text of a file in the TUM format, with times to nanoseconds, positions to nanometres and
 /// quaternions with qw >= 0. Write it with writeFileAtomically().
 std::string toTum(const Trajectory& trajectory);
+/// The same in the KITTI format.
 std::string toKitti(const Trajectory& trajectory);
 
 /// Returns the same motion for another frame of the same rigid body: T_world_other = T_world_body *
@@ -40,5 +41,7 @@ Trajectory ofOtherBody(const Trajectory& trajectory, const Eigen::Isometry3d& T_
 
 /// Length of the path through all positions, m.
 double pathLength(const Trajectory& trajectory);
+/// The same of positions in m.
+double pathLength(const std::vector<Eigen::Vector3d>& positions_m);
 
 }  // namespace stereo_nav

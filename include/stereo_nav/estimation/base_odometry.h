@@ -30,7 +30,7 @@ class BaseOdometry {
 
   /// The odometry begins anew: its next first frame is taken at `T_odom_base`.
   void start(const Eigen::Isometry3d& T_odom_base, const Matrix6d& pose_covariance);
-  /// From now on the base is said to be at `T_odom_base`; motion goes on.
+  /// Sets the current pose of the base. Later motions are added to it.
   void setPose(const Eigen::Isometry3d& T_odom_base, const Matrix6d& pose_covariance);
 
   /// Adds the motion of a frame that was taken at `time_s`, in order of time.

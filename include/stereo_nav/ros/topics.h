@@ -25,6 +25,6 @@ constexpr const char* kOdom = "odom";       ///< where the odometry begins
 constexpr const char* kBase = "base_link";  ///< the robot: x forward, y left, z up
 /// Frame of both cameras' images and infos: image_geometry::StereoCameraModel asserts that the two are equal.
 constexpr const char* kLeftOptical = "camera_left_optical";
-constexpr const char* kImu = "imu_link";
+constexpr const char* kImu = "imu_link";  ///< the IMU, in its own axes
 
 }  // namespace stereo_nav::ros_io::frames

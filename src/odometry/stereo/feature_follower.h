@@ -22,7 +22,7 @@ class FeatureFollower {
   std::vector<Track>& tracks() { return tracks_; }
   const std::vector<Track>& tracks() const { return tracks_; }
 
-  /// Takes over where the map has the landmarks of the tracks.
+  /// Copies the positions of the tracks' landmarks from the map.
   void updatePoints(const LocalMap& map);
 
   /// Searches for the features in `left` at their places in `prediction`, then at their last places, then
@@ -33,7 +33,7 @@ class FeatureFollower {
   /// the tracks that were found.
   TrackIndices recover(const vision::ImagePyramid& left, const FramePrediction& prediction);
 
-  /// Makes the current frame the keyframe: inliers go on, the others are not looked for any more.
+  /// Makes the current frame the keyframe: inliers are kept, other tracks are dropped.
   void startKeyframe(const vision::ImagePyramid& left);
   /// A new feature of the keyframe.
   void add(const Track& track) { tracks_.push_back(track); }

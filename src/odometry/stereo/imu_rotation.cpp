@@ -26,31 +26,26 @@ void ImuRotation::reset() {
   bias_variance_ = params_.initial_bias_sigma_rad_s * params_.initial_bias_sigma_rad_s;
 }
 
-std::optional<Eigen::Matrix3d> ImuRotation::rawIncrement(double from_s, double to_s) const {
-  const auto R_to_from_imu = history_.increment(from_s, to_s);
-  if (!R_to_from_imu) return std::nullopt;
-  return Eigen::Matrix3d(R_camera_imu_ * *R_to_from_imu * R_camera_imu_.transpose());
-}
-
 std::optional<ImuRotation::Increment> ImuRotation::increment(double from_s, double to_s) const {
-  const auto R_to_from = rawIncrement(from_s, to_s);
-  if (!R_to_from) return std::nullopt;
+  const auto R_current_previous = history_.increment(from_s, to_s, R_camera_imu_);
+  if (!R_current_previous) return std::nullopt;
   const double interval_s = to_s - from_s;
-  const Eigen::Vector3d angle = logRotation(*R_to_from);
+  const Eigen::Vector3d angle = logRotation(*R_current_previous);
   const double share = params_.angle_sigma_share * angle.norm();
   Increment increment;
-  // R_to_from turns by minus the rate, hence the plus.
-  increment.R_to_from = expRotation(angle + bias_ * interval_s);
+  // R_current_previous turns by minus the rate, hence the plus.
+  increment.R_current_previous = expRotation(angle + bias_ * interval_s);
   increment.sigma_rad = std::sqrt(params_.angle_sigma_rad * params_.angle_sigma_rad + share * share +
                                   bias_variance_ * interval_s * interval_s);
   return increment;
 }
 
-void ImuRotation::learn(double from_s, double to_s, const Eigen::Matrix3d& R_to_from, double sigma_rad) {
+void ImuRotation::learn(double from_s, double to_s, const Eigen::Matrix3d& R_current_previous,
+                        double sigma_rad) {
   const double interval_s = to_s - from_s;
   const auto imu = increment(from_s, to_s);
   if (!imu || interval_s <= 0.0) return;
-  const Eigen::Vector3d difference = logRotation(R_to_from) - logRotation(imu->R_to_from);
+  const Eigen::Vector3d difference = logRotation(R_current_previous) - logRotation(imu->R_current_previous);
   const double variance = imu->sigma_rad * imu->sigma_rad + sigma_rad * sigma_rad;
   constexpr double kGate = 5.0;
   if (difference.squaredNorm() > 3.0 * kGate * kGate * variance) return;

@@ -27,21 +27,19 @@ class ImuRotation {
   void reset();
 
   struct Increment {
-    Eigen::Matrix3d R_to_from;  ///< coordinates of the camera frame at `from_s` into those at `to_s`
-    double sigma_rad;           ///< per axis, bias included
+    Eigen::Matrix3d R_current_previous;  ///< coordinates of the camera frame at `from_s` into those at `to_s`
+    double sigma_rad;                    ///< per axis, bias included
   };
   /// The rotation over the interval; nothing if the samples do not cover it.
   std::optional<Increment> increment(double from_s, double to_s) const;
 
   /// Takes the rotation that vision found for the same interval; `sigma_rad` is per axis. Differences beyond
   /// 5 sigma are no bias and are ignored.
-  void learn(double from_s, double to_s, const Eigen::Matrix3d& R_to_from, double sigma_rad);
+  void learn(double from_s, double to_s, const Eigen::Matrix3d& R_current_previous, double sigma_rad);
 
   const Eigen::Vector3d& bias() const { return bias_; }  ///< rad/s, camera frame
 
  private:
-  std::optional<Eigen::Matrix3d> rawIncrement(double from_s, double to_s) const;
-
   ImuRotationParams params_;
   Eigen::Matrix3d R_camera_imu_;
   RotationHistory history_;

@@ -1,6 +1,6 @@
 #include "odometry/stereo/keyframe_decision.h"
 
-#include <algorithm>
+#include "core/statistics.h"
 
 namespace stereo_nav::odometry {
 
@@ -11,12 +11,12 @@ void KeyframeParams::describe(ParameterVisitor& visitor) {
   visitor.real(
       "max_parallax_px", max_parallax_px, {0.1, 1000.0}, "px",
       "largest median motion of the features from one keyframe to the next; a frame becomes a keyframe "
-      "if the next frame would exceed it, should it move on as this one did");
+      "if the next frame would exceed it, assuming the same motion");
 }
 
 bool needsKeyframe(const KeyframeParams& params, const std::vector<Track>& tracks,
                    std::size_t keyframe_features) {
-  std::vector<double> parallax_px;  // of the next frame, should everything move on as it did
+  std::vector<double> parallax_px;  // of the next frame, assuming the same motion
   for (const Track& track : tracks) {
     if (!track.inlier) continue;
     parallax_px.push_back((track.in_image.left_px - track.keyframe_px).norm() +
@@ -25,9 +25,7 @@ bool needsKeyframe(const KeyframeParams& params, const std::vector<Track>& track
   if (parallax_px.empty() || static_cast<double>(parallax_px.size()) <
                                  params.min_tracked_share * static_cast<double>(keyframe_features))
     return true;
-  const auto middle = parallax_px.begin() + static_cast<std::ptrdiff_t>(parallax_px.size() / 2);
-  std::nth_element(parallax_px.begin(), middle, parallax_px.end());
-  return *middle > params.max_parallax_px;
+  return upperMedian(parallax_px) > params.max_parallax_px;
 }
 
 }  // namespace stereo_nav::odometry

@@ -16,7 +16,7 @@ struct KeyframeParams {
 };
 
 /// Whether the current frame becomes a keyframe: too few inliers are left of the last keyframe's
-/// `keyframe_features`, or in the next frame they would have moved too far, should the motion go on.
+/// `keyframe_features`, or in the next frame they would have moved too far, assuming the same motion.
 bool needsKeyframe(const KeyframeParams& params, const std::vector<Track>& tracks,
                    std::size_t keyframe_features);
 

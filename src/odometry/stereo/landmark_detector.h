@@ -9,7 +9,7 @@ namespace stereo_nav::odometry {
 
 /// Places a landmark that was first seen at the pixels `seen` (which are brought to the stamps) by a rig in
 /// the pose `view` that moves with `twist` (m/s, rad/s). Its anchor is the camera of `view`, and its inverse
-/// depth is so far that of the pixels.
+/// depth is, until it is refined, that of the pixels.
 void placeAtStamp(const vision::StereoCalibration& calibration, const vision::RollingShutter& shutter,
                   const vision::StereoView& view, const Vector6d& twist, Landmark& landmark,
                   vision::StereoObservation& seen);
@@ -30,7 +30,7 @@ class LandmarkDetector {
     const vision::RollingShutter& shutter;
     vision::StereoView view;
     Vector6d twist;
-    double slack_px;  ///< by which epipolar lines may be off
+    double slack_px;  ///< largest expected error of an epipolar line, px
   };
   struct Result {
     std::vector<NewLandmark> landmarks;

@@ -34,7 +34,7 @@ WindowFrame MotionModel::start(const FrameTimes& times, const Eigen::Isometry3d&
   first.has_time_offset = times.rightOffset_s() != 0.0;
   first.late_sigma.setConstant(kFirstTwistSigma * std::abs(times.rightOffset_s()));
   if (const auto late = imu_.increment(times.left_s, times.right_s)) {
-    first.view.T_late_camera.linear() = first.T_late_expected.linear() = late->R_to_from;
+    first.view.T_late_camera.linear() = first.T_late_expected.linear() = late->R_current_previous;
     first.late_sigma.tail<3>().setConstant(late->sigma_rad);
   }
   twist_.reset();
@@ -60,11 +60,11 @@ MotionPrior MotionModel::prior(const FrameTimes& times) const {
   prior.twist_sigma.head<3>().setConstant(std::sqrt(params_.acceleration_density) * spread);
   prior.twist_sigma.tail<3>().setConstant(std::sqrt(params_.angular_acceleration_density) * spread);
   if (const auto turn = imu_.increment(previous_times_.left_s, times.left_s)) {
-    prior.R_current_previous = turn->R_to_from;
+    prior.R_current_previous = turn->R_current_previous;
     prior.rotation_sigma_rad = turn->sigma_rad;
   }
   if (const auto late = imu_.increment(times.left_s, times.right_s)) {
-    prior.R_late_camera = late->R_to_from;
+    prior.R_late_camera = late->R_current_previous;
   }
   return prior;
 }
@@ -72,7 +72,7 @@ MotionPrior MotionModel::prior(const FrameTimes& times) const {
 Eigen::Isometry3d MotionModel::turnedSincePrevious(const FrameTimes& times) const {
   Eigen::Isometry3d T_current_previous = Eigen::Isometry3d::Identity();
   if (const auto turn = imu_.increment(previous_times_.left_s, times.left_s)) {
-    T_current_previous.linear() = turn->R_to_from;
+    T_current_previous.linear() = turn->R_current_previous;
   }
   return T_current_previous * previous_view_.T_camera_world;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "odometry/common/gauss_newton.h"
+#include "core/gauss_newton.h"
 
 namespace stereo_nav::odometry {
 namespace {

@@ -24,7 +24,8 @@ class RightImageMatcher {
   RightImageMatcher(const vision::SparseStereoParams& params, const vision::StereoCalibration& calibration)
       : calibration_(calibration), stereo_(params, calibration) {}
 
-  /// px by which an epipolar line may be off for this uncertainty of T_late_camera (m, rad).
+  /// Returns the largest expected error of an epipolar line, px, for this uncertainty of T_late_camera (m,
+  /// rad).
   double slack_px(const Vector6d& late_sigma) const;
 
   /// Looks for the tracks that were found in the left image. Depths and the motion between the two stamps

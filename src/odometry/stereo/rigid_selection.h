@@ -18,9 +18,8 @@ struct RigidSelection {
   std::size_t with_depth = 0;  ///< tracks that took part
 };
 
-/// The largest set of reliable tracks with depth that kept their distances from the previous frame to this
-/// one
-/// (`view`), as far as their noise lets one tell.
+/// The largest set of reliable tracks with depth whose mutual distances did not change from the previous
+/// frame to this one (`view`), within their noise.
 RigidSelection selectRigidTracks(const CliqueParams& params, const NoisyRigidityParams& rigidity,
                                  const vision::StereoCalibration& calibration,
                                  const Eigen::Isometry3d& T_previous_world, const vision::StereoView& view,

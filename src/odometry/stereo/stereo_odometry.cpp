@@ -41,7 +41,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
 
   if (map_.empty()) {
     result.state = keyframe_id_ == 0 ? State::kInitialising : State::kLost;
-    result.reason = "first frame: nothing to measure motion against yet";
+    result.reason = "no map yet: this frame has nothing to measure its motion against";
     startMap(images, motion_.previousView().T_camera_world, result);
   } else {
     MotionPrior prior = motion_.prior(images.times);
@@ -220,7 +220,7 @@ void StereoOdometry::updateMap(const StereoImages& images, const MotionPrior& pr
   const double rotation_variance = estimate.covariance.bottomRightCorner<3, 3>().trace() / 3.0;
   motion_.update(images.times, prior, view, std::sqrt(rotation_variance));
   result.state = State::kTracking;
-  result.T_previous_camera = T_current_previous.inverse();
+  result.T_previous_current = T_current_previous.inverse();
   result.motion_covariance = estimate.covariance;
   result.reprojection_error_px = estimate.rms_px;
   lost_frames_ = 0;

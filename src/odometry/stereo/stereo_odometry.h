@@ -48,7 +48,7 @@ class StereoOdometry : public Odometry {
   /// Looks again for what was not found or did not fit, near the pose `view`. Returns whether it found any.
   bool recoverTracks(const StereoImages& images, const vision::StereoView& view);
   FramePrediction prediction(const vision::StereoView& view) const;
-  /// Frees the tracks from the rolling shutter, as far as `view` tells the motion.
+  /// Frees the tracks from the rolling shutter, using the motion that `view` implies.
   void compensateRows(const MotionPrior& prior, const vision::StereoView& view);
   /// Brings the landmarks of a first frame to its stamp, once the second frame has told the twist there.
   void compensateStart(const Vector6d& twist);
@@ -66,9 +66,8 @@ class StereoOdometry : public Odometry {
   vision::StereoCalibration calibration_;
   Eigen::Matrix3d R_camera_imu_;
   PoseEstimator estimator_;
-  vision::RollingShutter shutter_;  ///< of the current frame
-  Vector6d row_twist_ =
-      Vector6d::Zero();  ///< along which the rows of the current frame are brought to one time
+  vision::RollingShutter shutter_;         ///< of the current frame
+  Vector6d row_twist_ = Vector6d::Zero();  ///< motion used to bring the rows of the current frame to one time
 
   MotionModel motion_;
   FeatureFollower follower_;
@@ -78,10 +77,10 @@ class StereoOdometry : public Odometry {
 
   std::uint32_t keyframe_id_ = 0;
   std::size_t keyframe_features_ = 0;  ///< tracks of the last keyframe
-  bool previous_is_keyframe_ = false;  ///< the last frame that had a pose
+  bool previous_is_keyframe_ = false;  ///< whether the last frame that had a pose was a keyframe
 
   bool start_needs_compensation_ = false;  ///< the first frame is not freed from the rolling shutter yet
-  int lost_frames_ = 0;  ///< since the last tracked frame; a new map alone does not end the count
+  int lost_frames_ = 0;            ///< since the last tracked frame; a new map alone does not end the count
   bool mover_fills_view_ = false;  ///< something that moves on its own has done so since the map began
 };
 

@@ -31,7 +31,8 @@ TrackIndices foundTracks(const std::vector<Track>& tracks);
 std::size_t aliveTracks(const std::vector<Track>& tracks);
 
 /// The motion is decided by tracks that have moved with the scene for some frames, if there are enough of
-/// them: what enters the view and moves on its own does not decide after having been seen twice.
+/// them: an object that enters the view and moves on its own must not decide the motion once two frames
+/// show it.
 /// `min_inliers` is the number that a motion needs.
 void selectReliableTracks(int min_inliers, std::vector<Track>& tracks);
 

@@ -64,7 +64,7 @@ class WindowOptimizer {
     Eigen::Matrix3d inverse_information;
     Eigen::Vector3d gradient;
   };
-  /// Between six camera variables and a landmark.
+  /// Block of the information matrix that couples six camera variables and a landmark.
   struct CrossBlock {
     Eigen::Index at;  ///< first of the camera variables
     Eigen::Matrix<double, 6, 3> information;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "odometry/common/gauss_newton.h"
+#include "core/gauss_newton.h"
 #include "vision/reprojection.h"
 
 namespace stereo_nav::odometry {

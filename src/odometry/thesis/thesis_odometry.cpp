@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/angles.h"
 #include "odometry/common/greedy_clique.h"
 #include "odometry/common/stage_clock.h"
 #include "stereo_nav/core/parameters.h"
@@ -11,9 +12,8 @@
 namespace stereo_nav::odometry {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// First model of the IMU's share of the uncertainty: half a degree a frame, of a serial angle module.
-constexpr double kImuRotationSigma_rad = 0.5 * kPi / 180.0;
+constexpr double kImuRotationSigma_rad = 0.5 * kRadPerDeg;
 
 void checkImages(const StereoFrame& frame, const vision::StereoCalibration& calibration) {
   const cv::Size expected(calibration.width, calibration.height);
@@ -89,10 +89,10 @@ FrameResult ThesisOdometry::process(const StereoFrame& frame) {
   if (reference_) {
     measureMotion(frame, result);
   } else {
-    result.reason = "first frame: nothing to measure motion against yet";
+    result.reason = "no frame before: this one has nothing to measure its motion against";
   }
   if (result.state == State::kTracking) {
-    T_start_camera_ = T_start_camera_ * result.T_previous_camera;
+    T_start_camera_ = T_start_camera_ * result.T_previous_current;
     R_tracked_reference_.setIdentity();
   }
   result.T_start_camera = T_start_camera_;
@@ -161,12 +161,6 @@ std::vector<std::size_t> ThesisOdometry::selectRigid(const Tracked& tracked, Fra
   return clique;
 }
 
-std::optional<Eigen::Matrix3d> ThesisOdometry::imuRotation(double from_s, double to_s) const {
-  const auto R_to_from_imu = imu_.increment(from_s, to_s);
-  if (!R_to_from_imu) return std::nullopt;
-  return Eigen::Matrix3d(R_camera_imu_ * *R_to_from_imu * R_camera_imu_.transpose());
-}
-
 void ThesisOdometry::estimate(const Tracked& tracked, const std::vector<std::size_t>& clique, double time_s,
                               FrameResult& result) {
   StageClock clock(result.stage_times);
@@ -176,7 +170,7 @@ void ThesisOdometry::estimate(const Tracked& tracked, const std::vector<std::siz
 
   const auto R_current_previous = params_.rotation == ThesisParams::Rotation::kVision
                                       ? std::nullopt
-                                      : imuRotation(reference_->time_s, time_s);
+                                      : imu_.increment(reference_->time_s, time_s, R_camera_imu_);
   if (R_current_previous) {
     estimateWithImu(pairs, *R_current_previous, result);
   } else if (params_.rotation == ThesisParams::Rotation::kImu) {
@@ -195,7 +189,7 @@ void ThesisOdometry::estimate(const Tracked& tracked, const std::vector<std::siz
   // Lost frames in between have moved the reference on; what the IMU saw of their turn is kept.
   Eigen::Isometry3d T_tracked_reference = Eigen::Isometry3d::Identity();
   T_tracked_reference.linear() = R_tracked_reference_;
-  result.T_previous_camera = T_tracked_reference * result.T_previous_camera;
+  result.T_previous_current = T_tracked_reference * result.T_previous_current;
   clock.lap("estimate");
 }
 
@@ -205,7 +199,7 @@ void ThesisOdometry::estimateWithImu(const std::vector<PointPair>& pairs,
   Eigen::Isometry3d T_current_previous = Eigen::Isometry3d::Identity();
   T_current_previous.linear() = R_current_previous;
   T_current_previous.translation() = -t;
-  result.T_previous_camera = T_current_previous.inverse();
+  result.T_previous_current = T_current_previous.inverse();
   result.reprojection_error_px = rmsReprojection(calibration_, pairs, T_current_previous);
 
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
@@ -228,7 +222,7 @@ bool ThesisOdometry::estimateFromVision(const std::vector<PointPair>& pairs, std
     return false;
   }
   inlier = motion.inlier;
-  result.T_previous_camera = motion.T_current_previous.inverse();
+  result.T_previous_current = motion.T_current_previous.inverse();
   result.motion_covariance = motion.covariance;
   result.reprojection_error_px = motion.rms_px;
   return true;
@@ -249,7 +243,8 @@ void ThesisOdometry::adoptReference(const StereoFrame& frame, FrameResult& resul
   // A dark or blocked frame is no reference: the one before it stays, so that a short gap is bridged.
   if (next.corners.size() < static_cast<std::size_t>(params_.min_inliers)) return;
   if (reference_ && result.state == State::kLost) {
-    if (const auto R_current_previous = imuRotation(reference_->time_s, frame.left_time_s)) {
+    if (const auto R_current_previous =
+            imu_.increment(reference_->time_s, frame.left_time_s, R_camera_imu_)) {
       R_tracked_reference_ = R_tracked_reference_ * R_current_previous->transpose();
     }
   }

@@ -68,7 +68,6 @@ class ThesisOdometry : public Odometry {
                        FrameResult& result);
   bool estimateFromVision(const std::vector<PointPair>& pairs, std::vector<bool>& inlier,
                           FrameResult& result);
-  std::optional<Eigen::Matrix3d> imuRotation(double from_s, double to_s) const;
   void adoptReference(const StereoFrame& frame, FrameResult& result);
 
   ThesisParams params_;

@@ -4,7 +4,7 @@
 
 namespace stereo_nav::odometry {
 
-/// Of the wheel odometry: the drive, its encoders' counters and what is uncertain.
+/// Parameters of the wheel odometry: the drive, the encoders' counters, and the sizes of the errors.
 struct WheelOdometryParams {
   kinematics::DriveParams drive;
   int counter_bits = 32;

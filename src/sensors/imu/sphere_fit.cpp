@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/gauss_newton.h"
 #include "stereo_nav/core/lie.h"
 #include "stereo_nav/sensors/imu/calibration.h"
 
@@ -50,10 +51,11 @@ void refine(const std::vector<Vector3d>& points, double radius, SphereFit& fit) 
       H += J * J.transpose();
       g += J * (q.norm() - radius);
     }
-    const Vector6d delta = H.ldlt().solve(-g);
-    fit.offset += delta.head<3>();
-    fit.scale += delta.tail<3>();
-    if (delta.norm() < 1e-12 * radius) return;
+    const auto delta = gaussNewtonStep(H, g);
+    if (!delta) return;
+    fit.offset += delta->head<3>();
+    fit.scale += delta->tail<3>();
+    if (delta->norm() < 1e-12 * radius) return;
   }
 }
 

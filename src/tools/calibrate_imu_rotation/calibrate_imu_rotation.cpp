@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "calibration/imu_camera_rotation.h"
+#include "core/angles.h"
 #include "core/atomic_file.h"
 #include "core/rig_file.h"
 #include "ros/package_files.h"
@@ -19,8 +20,6 @@ namespace stereo_nav::tools {
 namespace {
 
 namespace po = boost::program_options;
-
-constexpr double kDegree = M_PI / 180.0;
 
 struct Options {
   std::string bag, rig, config = "vo.yaml";
@@ -92,11 +91,11 @@ std::vector<calibration::CameraOrientation> followCamera(const Options& options,
 }
 
 void print(const calibration::ImuCameraRotation& found) {
-  const Eigen::Vector3d rate = found.rate_rms_rad_s / kDegree, sigma = found.sigma_rad / kDegree;
+  const Eigen::Vector3d rate = found.rate_rms_rad_s / kRadPerDeg, sigma = found.sigma_rad / kRadPerDeg;
   std::printf("motion: %zu turns, RMS rates %.1f, %.1f and %.1f deg/s about its own three axes\n",
               found.turns, rate(0), rate(1), rate(2));
   std::printf("agreement of cameras and IMU: %.3f deg in turns of %.1f deg\n",
-              found.residual_rms_rad / kDegree, found.turn_rms_rad / kDegree);
+              found.residual_rms_rad / kRadPerDeg, found.turn_rms_rad / kRadPerDeg);
   std::printf("IMU stamps against the images': %+.1f ms (deviation %.1f ms)%s\n", 1e3 * found.imu_offset_s,
               1e3 * found.imu_offset_sigma_s,
               std::abs(found.imu_offset_s) > 0.02 ? "; worth correcting" : "");

@@ -1,5 +1,7 @@
 #include "tools/check_calibration/image_pairs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -70,9 +72,8 @@ void readBag(const std::string& path, double interval_s, const InfoSink& infos, 
   recording.forEachPair([&](const ros_io::RawPair& pair) {
     if (!wanted || pair.left_time_s - last_s < interval_s) return;
     last_s = pair.left_time_s;
-    char name[40];
-    std::snprintf(name, sizeof name, "%.3f", pair.left_time_s);
-    wanted = sink({name, pair.left, pair.right, pair.right_time_s - pair.left_time_s});
+    wanted = sink({fmt::format("{:.3f}", pair.left_time_s), pair.left, pair.right,
+                   pair.right_time_s - pair.left_time_s});
   });
 }
 

@@ -25,26 +25,26 @@ ImuSample rateSample(double time_s, double rate_rad_s) {
 }
 
 /// Signed angle about kAxis by which the IMU turned, from a rotation "to <- from".
-double turnOf(const Eigen::Matrix3d& R_to_from) {
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(R_to_from.transpose()));
+double turnOf(const Eigen::Matrix3d& R_current_previous) {
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(R_current_previous.transpose()));
   return turn.angle() * turn.axis().dot(kAxis);
 }
 
 TEST(RotationHistory, AttitudesAreInterpolatedAtBothEnds) {
   RotationHistory history;
   for (int i = 0; i <= 10; ++i) history.add(attitudeSample(0.1 * i, 0.2 * i));
-  const auto R_to_from = history.increment(0.13, 0.77);
-  ASSERT_TRUE(R_to_from);
-  EXPECT_NEAR(turnOf(*R_to_from), 2.0 * 0.64, 1e-9);
+  const auto R_current_previous = history.increment(0.13, 0.77);
+  ASSERT_TRUE(R_current_previous);
+  EXPECT_NEAR(turnOf(*R_current_previous), 2.0 * 0.64, 1e-9);
 }
 
 TEST(RotationHistory, AChangingRateIsIntegratedExactlyBetweenTheEnds) {
   // rate = 2 t: angle(t) = t^2. Linear between samples, so the integral is exact.
   RotationHistory history;
   for (int i = 0; i <= 100; ++i) history.add(rateSample(0.01 * i, 0.02 * i));
-  const auto R_to_from = history.increment(0.1234, 0.5678);
-  ASSERT_TRUE(R_to_from);
-  EXPECT_NEAR(turnOf(*R_to_from), 0.5678 * 0.5678 - 0.1234 * 0.1234, 1e-9);
+  const auto R_current_previous = history.increment(0.1234, 0.5678);
+  ASSERT_TRUE(R_current_previous);
+  EXPECT_NEAR(turnOf(*R_current_previous), 0.5678 * 0.5678 - 0.1234 * 0.1234, 1e-9);
 }
 
 TEST(RotationHistory, BackwardsIsTheInverse) {

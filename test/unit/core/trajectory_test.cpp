@@ -89,7 +89,7 @@ TEST(Kitti, refusesWhatIsNoTrajectory) {
 TEST(Trajectory, lengthAndOtherBody) {
   const Trajectory trajectory = {{0.0, pose(0, 0, 0)}, {1.0, pose(3, 4, 0, 90.0)}, {2.0, pose(3, 4, 12)}};
   EXPECT_DOUBLE_EQ(pathLength(trajectory), 5.0 + 12.0);
-  EXPECT_DOUBLE_EQ(pathLength({}), 0.0);
+  EXPECT_DOUBLE_EQ(pathLength(Trajectory{}), 0.0);
   // One metre ahead of a body that looks along y is one metre further along y.
   const auto ahead = ofOtherBody(trajectory, pose(1, 0, 0));
   EXPECT_TRUE(ahead[1].T_world_body.translation().isApprox(Eigen::Vector3d(3, 5, 0)));

@@ -34,7 +34,7 @@ odometry::FrameResult resultFor(const Eigen::Isometry3d& T_start_base,
   odometry::FrameResult result;
   result.state = odometry::State::kTracking;
   result.T_start_camera = T.inverse() * T_start_base * T;
-  result.T_previous_camera = T.inverse() * T_previous_base * T;
+  result.T_previous_current = T.inverse() * T_previous_base * T;
   return result;
 }
 
@@ -89,7 +89,7 @@ TEST(BaseOdometry, YawNoiseSpreadsSidewaysWithDistance) {
   odometry.update(turned, 1.0);
   odometry::FrameResult driven;
   driven.state = odometry::State::kTracking;
-  driven.T_previous_camera.translation().x() = driven.T_start_camera.translation().x() = 3.0;
+  driven.T_previous_current.translation().x() = driven.T_start_camera.translation().x() = 3.0;
   const BaseEstimate estimate = odometry.update(driven, 2.0);
   EXPECT_NEAR(estimate.pose_covariance(1, 1), 9.0 * 0.01, 1e-6);
   EXPECT_NEAR(estimate.pose_covariance(0, 0), 0.0, 1e-6);

@@ -60,10 +60,10 @@ struct StageTime {
 struct FrameResult {
   State state = State::kInitialising;  ///< what the frame means for the pose
   std::string reason;  ///< why it is not kTracking: what was seen, the likely cause, the remedy
-  Eigen::Isometry3d T_start_camera = Eigen::Isometry3d::Identity();     ///< held while lost
-  Eigen::Isometry3d T_previous_camera = Eigen::Isometry3d::Identity();  ///< motion since the previous frame
+  Eigen::Isometry3d T_start_camera = Eigen::Isometry3d::Identity();      ///< held while lost
+  Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  ///< motion since the previous frame
   Matrix6d motion_covariance =
-      Matrix6d::Zero();           ///< of T_previous_camera, current camera frame: m, m, m, rad, rad, rad
+      Matrix6d::Zero();           ///< of T_previous_current, current camera frame: m, m, m, rad, rad, rad
   bool keyframe = false;          ///< whether this frame became a keyframe
   std::uint32_t keyframe_id = 0;  ///< of the newest keyframe
   std::uint32_t features_detected = 0;    ///< all features of the left image

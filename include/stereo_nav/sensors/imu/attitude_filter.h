@@ -16,6 +16,7 @@ struct InertialSample {
   std::optional<Eigen::Vector3d> magnetic_field;                  ///< any unit
 };
 
+/// How the orientation is computed from the readings of a raw module.
 enum class AttitudeMethod { kMahony, kMadgwick };
 
 /// The gains are low, for a robot that drives: every curve and every braking tilts what the accelerometer

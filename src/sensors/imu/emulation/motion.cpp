@@ -63,9 +63,9 @@ Motion slowTurns() {
   constexpr double kTurn_s = 12.0;
   return rotatingMotion([](double t) {
     const int axis = static_cast<int>(std::floor(t / kTurn_s)) % 3;
-    const double angle = 2.0 * M_PI * std::fmod(std::max(t, 0.0), kTurn_s) / kTurn_s;
+    const double angle = 2.0 * kPi * std::fmod(std::max(t, 0.0), kTurn_s) / kTurn_s;
     // Turns about z start with the x axis pointing up, so that every axis feels gravity.
-    const Quaterniond start = std::max(axis, 0) == 2 ? Quaterniond(AngleAxisd(-M_PI / 2, Vector3d::UnitY()))
+    const Quaterniond start = std::max(axis, 0) == 2 ? Quaterniond(AngleAxisd(-kPi / 2, Vector3d::UnitY()))
                                                      : Quaterniond::Identity();
     return Quaterniond(start * AngleAxisd(angle, Vector3d::Unit(std::max(axis, 0))));
   });

@@ -177,7 +177,7 @@ void expectEqual(const FrameResult& one, const FrameResult& other, std::size_t f
   EXPECT_EQ(one.state, other.state);
   EXPECT_EQ(one.reason, other.reason);
   EXPECT_EQ(one.T_start_camera.matrix(), other.T_start_camera.matrix());
-  EXPECT_EQ(one.T_previous_camera.matrix(), other.T_previous_camera.matrix());
+  EXPECT_EQ(one.T_previous_current.matrix(), other.T_previous_current.matrix());
   EXPECT_EQ(one.motion_covariance, other.motion_covariance);
   EXPECT_EQ(one.keyframe, other.keyframe);
   EXPECT_EQ(one.keyframe_id, other.keyframe_id);

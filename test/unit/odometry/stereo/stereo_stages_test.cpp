@@ -149,11 +149,11 @@ TEST(ImuRotationTest, LearnsTheBiasFromVision) {
   const auto before = imu.increment(0.0, 0.1);
   ASSERT_TRUE(before);
   const Eigen::Matrix3d truth = expRotation(-0.1 * rate_camera);
-  EXPECT_GT(logRotation(before->R_to_from * truth.transpose()).norm(), 0.005);
+  EXPECT_GT(logRotation(before->R_current_previous * truth.transpose()).norm(), 0.005);
   for (int i = 0; i < 20; ++i) imu.learn(0.1 * i, 0.1 * (i + 1), truth, 0.0005);
   const auto after = imu.increment(3.0, 3.1);
   ASSERT_TRUE(after);
-  EXPECT_LT(logRotation(after->R_to_from * truth.transpose()).norm(), 2e-4);
+  EXPECT_LT(logRotation(after->R_current_previous * truth.transpose()).norm(), 2e-4);
   EXPECT_LT(after->sigma_rad, before->sigma_rad);
   EXPECT_TRUE(imu.bias().isApprox(R_camera_imu * bias_imu, 0.03));
   EXPECT_FALSE(imu.increment(9.0, 9.1));

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <optional>
 
-namespace stereo_nav::odometry {
+namespace stereo_nav {
 
 /// The step to the minimum of a least-squares problem, linearised: information * step = -gradient, with the
 /// information J^T W J and the gradient J^T W r of residuals (observed - projected) under left perturbations
@@ -18,4 +18,4 @@ std::optional<Vector> gaussNewtonStep(const Matrix& information, const Vector& g
   return step;
 }
 
-}  // namespace stereo_nav::odometry
+}  // namespace stereo_nav
