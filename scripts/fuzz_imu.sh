@@ -3,8 +3,8 @@
 #
 #   scripts/fuzz_imu.sh [SECONDS] [BUILD_DIR]      (default: 600 seconds for each protocol, build/fuzz)
 #
-# Needs clang. Inputs that reach new code are kept, minimised, in test/fuzz/corpus; the unit test
-# imu_fuzz_corpus_test runs them again with every test run. A finding ends the script with an error and leaves the input
+# Needs clang. Inputs that reach new code are kept, minimised, in test/fuzz/corpus; the unit tests
+# FuzzCorpus of imu_test run them again with every test run. A finding ends the script with an error and leaves the input
 # in BUILD_DIR.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -7,10 +7,10 @@
 namespace stereo_nav::imu {
 namespace {
 
-constexpr int kBaud = 115200;
+constexpr int kFuzzBaud = 115200;
 
 /// What must hold of everything that is delivered, whatever the bytes were.
-void check(const DecodedFrame& frame) {
+void checkFrame(const DecodedFrame& frame) {
   const auto require = [](bool condition) {
     if (!condition) std::abort();
   };
@@ -27,14 +27,14 @@ void check(const DecodedFrame& frame) {
 void decodeFuzzInput(Protocol protocol, const std::uint8_t* data, std::size_t size) {
   if (size == 0) return;
   const auto decoder = protocol == Protocol::kAngles
-                           ? makeAngleDecoder(AngleOrder::kYawPitchRoll, AngleGateParams(), kBaud)
-                           : makeRawDecoder(kBaud);
+                           ? makeAngleDecoder(AngleOrder::kYawPitchRoll, AngleGateParams(), kFuzzBaud)
+                           : makeRawDecoder(kFuzzBaud);
   // The first byte says how the rest is cut into reads, and how much time passes between them.
   const std::size_t piece = 1 + data[0] % 40;
   const double pause_s = data[0] / 40 * 0.004;
   double now_s = 0.0;
   for (std::size_t i = 1; i < size; i += piece) {
-    decoder->push(data + i, std::min(piece, size - i), now_s, check);
+    decoder->push(data + i, std::min(piece, size - i), now_s, checkFrame);
     now_s += pause_s;
   }
   const DecoderCounters counters = decoder->counters();

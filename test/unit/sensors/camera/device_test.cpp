@@ -10,6 +10,7 @@
 #include "sensors/camera/capture_params.h"
 #include "sensors/camera/controls.h"
 #include "sensors/camera/v4l2_device.h"
+#include "unit/sensors/camera/expect_contains.h"
 #include "unit/sensors/camera/fake_kernel.h"
 
 namespace stereo_nav::camera {
@@ -26,10 +27,6 @@ std::string messageOf(Attempt&& attempt) {
     return error.what();
   }
   return "no error";
-}
-
-void expectContains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
 }
 
 class Device : public testing::Test {

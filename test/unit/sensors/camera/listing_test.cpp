@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tools/list_cameras/camera_listing.h"
+#include "unit/sensors/camera/expect_contains.h"
 #include "unit/sensors/camera/fake_kernel.h"
 
 namespace stereo_nav::camera {
@@ -42,10 +43,6 @@ class Listing : public testing::Test {
 
   FakeKernel kernel_;
 };
-
-void expectContains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
-}
 
 TEST_F(Listing, TwoCamerasOnOneControllerAreNamedWithTheRemedyAndTheLaunchArguments) {
   plugIn(0, "0000:00:14.0", "usb1", "1");

@@ -2,6 +2,7 @@
 #include <linux/videodev2.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstring>
 
 #include "unit/sensors/camera/stereo_camera_fixture.h"
@@ -101,7 +102,13 @@ TEST_F(StereoCameraTest, MeasuresTheSlideOfCamerasWhoseRateIsNotTheOneAskedFor) 
   faster.max_skew_s = 0.0051;
   start(faster);
   ASSERT_TRUE(rig_->pairsCome(250));  // the skew passes a whole period twice
-  EXPECT_NEAR(rig_->camera().status().time_offset_rate, 0.01, 0.001);
+  // What a busy machine made the pairer miss leaves the fit again.
+  double rate = 0.0;
+  comesTrue([&] {
+    rate = rig_->camera().status().time_offset_rate;
+    return std::abs(rate - 0.01) <= 0.001;
+  });
+  EXPECT_NEAR(rate, 0.01, 0.001);
   EXPECT_NE(rig_->log().find("runs at 100 Hz instead of 160"), std::string::npos) << rig_->log();
 }
 

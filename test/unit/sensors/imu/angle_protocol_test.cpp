@@ -11,22 +11,15 @@
 #include "sensors/imu/emulation/emulated_module.h"
 #include "sensors/imu/frame_decoder.h"
 #include "unit/sensors/imu/allocation_counter.h"
+#include "unit/sensors/imu/module_stream.h"
 
 namespace stereo_nav::imu {
 namespace {
-
-constexpr int kBaud = 115200;
-constexpr double kPeriod_s = 0.01;
-using Bytes = std::vector<std::uint8_t>;
 
 Bytes encoded(const ModuleAngles& angles, AngleOrder order = AngleOrder::kYawPitchRoll) {
   Bytes frame(AngleFramer::kFrameBytes);
   encodeAngleFrame(angles, order, frame.data());
   return frame;
-}
-
-void append(Bytes& to, const Bytes& bytes) {
-  to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
 /// Frames of a steady turn: frame k has yaw 0.2 k, pitch 1, roll -2.

@@ -10,12 +10,10 @@
 #include "sensors/imu/emulation/emulated_module.h"
 #include "sensors/imu/emulation/serial_line.h"
 #include "sensors/imu/frame_decoder.h"
+#include "unit/sensors/imu/module_stream.h"
 
 namespace stereo_nav::imu {
 namespace {
-
-constexpr int kBaud = 115200;
-constexpr double kPeriod_s = 0.01;
 
 /// What the robot does while the line is damaged.
 ModuleAngles swinging(double t) {

@@ -6,11 +6,10 @@
 #include "sensors/imu/emulation/emulated_module.h"
 #include "sensors/imu/emulation/motion.h"
 #include "sensors/imu/emulation/serial_line.h"
+#include "unit/sensors/imu/module_stream.h"
 
 namespace stereo_nav::imu {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 TEST(SerialLine, BytesTakeTenBitTimesEach) {
   SerialLine line(10000, 0.0);

@@ -10,11 +10,10 @@
 #include "sensors/imu/crc32.h"
 #include "sensors/imu/emulation/serial_line.h"
 #include "unit/sensors/imu/allocation_counter.h"
+#include "unit/sensors/imu/module_stream.h"
 
 namespace stereo_nav::imu {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 RawMeasurement measurement(int k, bool magnetometer = false) {
   RawMeasurement m;
@@ -48,10 +47,6 @@ std::vector<RawMeasurement> parse(const Bytes& bytes) {
 bool sameContent(const RawMeasurement& a, const RawMeasurement& b) {
   return a.sequence == b.sequence && a.device_time_us == b.device_time_us &&
          a.angular_velocity == b.angular_velocity && a.linear_acceleration == b.linear_acceleration;
-}
-
-void append(Bytes& to, const Bytes& bytes) {
-  to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
 TEST(Crc32, HasTheStandardCheckValue) {
