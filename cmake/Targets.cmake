@@ -35,7 +35,8 @@ function(stereo_nav_program name)
 endfunction()
 
 # stereo_nav_unit_test(<name> SOURCES ... LINK ... [TIMEOUT seconds] [LABELS ...]): a GoogleTest program in the run_tests
-# target. The label "tsan" has scripts/test.sh --tsan run it under ThreadSanitizer, too.
+# target. The label "tsan" has scripts/test.sh --tsan run it under ThreadSanitizer, too. The targets stereo_nav_unit_tests
+# and stereo_nav_tsan_tests build all of them and those with the label.
 function(stereo_nav_unit_test name)
   if(NOT CATKIN_ENABLE_TESTING)
     return()
@@ -50,7 +51,13 @@ function(stereo_nav_unit_test name)
   catkin_add_gtest(${name} ${ARG_SOURCES})
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${STEREO_NAV_UNITY})
   set_tests_properties(_ctest_${PROJECT_NAME}_gtest_${name} PROPERTIES
-    TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+    TIMEOUT ${ARG_TIMEOUT} LABELS "unit;${ARG_LABELS}")
+  foreach(label unit ${ARG_LABELS})
+    if(NOT TARGET stereo_nav_${label}_tests)
+      add_custom_target(stereo_nav_${label}_tests)
+    endif()
+    add_dependencies(stereo_nav_${label}_tests ${name})
+  endforeach()
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_include_directories(${name} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
   target_link_libraries(${name} ${ARG_LINK} gtest_main Threads::Threads)
