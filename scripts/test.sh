@@ -143,7 +143,7 @@ scope=--tests
 if timed "${steps[0]}" must "$build_dir" "build" build "${steps[0]}" "$STEREO_NAV_ROOT/scripts/build.sh" $scope "$build_dir"; then
   timed "unit tests" run_ctest "unit tests" "$build_dir" unit -L '^unit$' --parallel "$(nproc)"
   if ! $unit; then
-    timed "tests of the whole graph" run_ctest "tests of the whole graph" "$build_dir" graph -LE '^unit$'
+    timed "tests of the whole graph" run_ctest "tests of the whole graph" "$build_dir" graph -LE '^unit$' --parallel "$(nproc)"
   fi
   if $lint; then timed "checks without a compiler" tap lint "$STEREO_NAV_ROOT/scripts/lint.sh"; fi
   if $install; then
