@@ -37,7 +37,8 @@ endfunction()
 # stereo_nav_unit_test(<name> SOURCES ... LINK ... [TIMEOUT seconds] [LABELS ...] [PARTS <suite>...]): the GoogleTest
 # program of a room's unit tests. ctest runs it as one test; each suite of PARTS, such as one that takes long, is a test
 # <name>_<suite> beside it, with a result file of its own, so that several cores share the work of one program. The label
-# "tsan" has scripts/test.sh --tsan run the program under ThreadSanitizer, too: where the room has threads.
+# "tsan" has scripts/test.sh --tsan run the program under ThreadSanitizer, too: where the room has threads. The targets
+# stereo_nav_unit_tests and stereo_nav_tsan_tests build all programs and those with the label.
 function(stereo_nav_unit_test name)
   if(NOT CATKIN_ENABLE_TESTING)
     return()
@@ -52,6 +53,12 @@ function(stereo_nav_unit_test name)
   catkin_add_executable_with_gtest(${name} ${ARG_SOURCES} EXCLUDE_FROM_ALL)
   add_dependencies(tests ${name})
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${STEREO_NAV_UNITY})
+  foreach(label unit ${ARG_LABELS})
+    if(NOT TARGET stereo_nav_${label}_tests)
+      add_custom_target(stereo_nav_${label}_tests)
+    endif()
+    add_dependencies(stereo_nav_${label}_tests ${name})
+  endforeach()
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_include_directories(${name} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
   target_link_libraries(${name} ${ARG_LINK} gtest_main Threads::Threads)
@@ -76,5 +83,5 @@ function(stereo_nav_add_unit_test test program filter)
   set(results gtest-${test}.xml)
   catkin_run_tests_target("gtest" ${test} ${results} DEPENDENCIES ${program}
     COMMAND "$<TARGET_FILE:${program}> '--gtest_filter=${filter}' --gtest_output=xml:${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/${results}")
-  set_tests_properties(_ctest_${PROJECT_NAME}_gtest_${test} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+  set_tests_properties(_ctest_${PROJECT_NAME}_gtest_${test} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "unit;${ARG_LABELS}")
 endfunction()

@@ -51,11 +51,25 @@ until rosparam list >/dev/null 2>&1; do
   kill -0 "${processes[-1]}" 2>/dev/null || die "roscore ended at once: $(tail -n 1 "$work/roscore.log")"
   sleep 0.2
 done
-roslaunch stereo_nav visualise.launch view:="$view" >"$work/visualise.log" 2>&1 &
-processes+=($!)
+show() {
+  roslaunch stereo_nav visualise.launch view:="$view" >"$work/visualise.log" 2>&1 &
+  viewer=$!
+  processes+=("$viewer")
+}
+show
 # rviz first: what it draws over time, such as the truth, is then complete.
-until rostopic info /path 2>/dev/null | grep -q rviz; do
-  kill -0 "${processes[-1]}" 2>/dev/null || { cat "$work/visualise.log" >&2; die "rviz has ended"; }
+again=true
+until rostopic info /path 2>/dev/null | grep -q rviz && kill -0 "$viewer" 2>/dev/null; do
+  if ! kill -0 "$viewer" 2>/dev/null; then
+    cat "$work/visualise.log" >&2
+    # On a busy machine it may die of a signal while it starts.
+    $again && grep -q 'process has died \[pid [0-9]*, exit code -[0-9]*, cmd [^ ]*/rviz ' "$work/visualise.log" ||
+      die "rviz has ended"
+    say "rviz has died while it started; it is started once more"
+    again=false
+    rosnode cleanup <<<y >/dev/null 2>&1 || true  # the first one's subscriptions
+    show
+  fi
   sleep 0.5
 done
 roslaunch stereo_nav robot.launch simulated:=true "${arguments[@]}" >"$work/robot.log" 2>&1 &

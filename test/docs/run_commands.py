@@ -114,6 +114,14 @@ class Runner:
             time.sleep(0.5)
         return False
 
+    @staticmethod
+    def died_of_a_signal(process, program):
+        """Whether rviz, say, has: by the status of the shell, or in the words of roslaunch."""
+        said = Path(process.log).read_text(errors='replace')
+        return (program in ('rviz', 'image_view', 'cameracalibrator') and
+                ((process.poll() or 0) > 128 or
+                 re.search(rf'has died \[pid \d+, exit code -\d+, cmd \S*/{program}\S* ', said) is not None))
+
     def execute(self, command, entry):
         """What went wrong, or nothing."""
         for old, new in entry.get('with', {}).items():
@@ -132,6 +140,10 @@ class Runner:
             self.new_graph()
         self.graph.append(self.start(re.sub(r'\s*&$', '', command)))
         good = self.wait_for(entry['until'], self.graph[-1])
+        if not good and self.died_of_a_signal(self.graph[-1], entry['until']):
+            print(f'{entry["until"]}, which is not ours, has died of a signal; it is started once more', flush=True)
+            self.graph[-1] = self.start(re.sub(r'\s*&$', '', command))
+            good = self.wait_for(entry['until'], self.graph[-1])
         return None if good else f'no {entry["until"]}\n' + Path(self.graph[-1].log).read_text(errors='replace')
 
     def close(self):

@@ -8,6 +8,7 @@
 
 #include "support/background_command.h"
 #include "support/command.h"
+#include "support/foreign_program.h"
 #include "support/own_master.h"
 
 namespace stereo_nav::test {
@@ -90,24 +91,24 @@ TEST(Operation, NodesStartInAnyOrder) {
 class Rviz : public testing::TestWithParam<const char*> {};
 
 TEST_P(Rviz, ShowsAllOfTheOdometry) {
-  OwnMaster master;
-  master.start();
+  // roslaunch starts the master: were rviz to be started again, the next one knows no subscribers of the
+  // first.
+  const OwnMaster master;
   // Xvfb finds a free display itself and prints its number.
   const BackgroundCommand screen("exec Xvfb -displayfd 1 -screen 0 1000x700x24");
   ASSERT_TRUE(screen.waitForOutput("\n", kLongWait_s)) << "Xvfb does not start";
-  BackgroundCommand rviz("export DISPLAY=:" + std::to_string(std::atoi(screen.output().c_str())) +
-                         " LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1; " + kRos +
-                         "exec roslaunch " LAUNCH_FOLDER "/visualise.launch view:=" + GetParam());
+  ForeignProgram rviz("rviz", "export DISPLAY=:" + std::to_string(std::atoi(screen.output().c_str())) +
+                                  " LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1; " + kRos +
+                                  "exec roslaunch " LAUNCH_FOLDER "/visualise.launch view:=" + GetParam());
   for (const std::string topic : {"/path", "/odom", "/vo/features", "/vo/debug_image", "/vo/disparity_view",
                                   "/ground_truth/odom", "/tf", "/tf_static"}) {
-    bool subscribed = false;
-    for (int attempt = 0; attempt < 60 && !subscribed && !rviz.waitFor(0.5); ++attempt) {
-      subscribed = runCommand(kRos + "rostopic info " + topic).output.find("* /rviz") != std::string::npos;
-    }
-    EXPECT_TRUE(subscribed) << topic << "\n" << rviz.output();
+    const auto is_subscribed = [&topic] {
+      return runCommand(kRos + "rostopic info " + topic).output.find("* /rviz") != std::string::npos;
+    };
+    EXPECT_TRUE(rviz.comesUp(is_subscribed, kLongWait_s)) << topic << "\n" << rviz.command().output();
   }
-  rviz.signal(SIGINT);
-  EXPECT_EQ(rviz.waitFor(kLongWait_s), 0) << rviz.output();
+  rviz.command().signal(SIGINT);
+  EXPECT_EQ(rviz.command().waitFor(kLongWait_s), 0) << rviz.command().output();
 }
 
 INSTANTIATE_TEST_SUITE_P(BothViews, Rviz, testing::Values("robot", "offline"));

@@ -47,7 +47,8 @@ class BackgroundCommand {
     if (status_) return *status_;
     int status = 0;
     waitpid(pid_, &status, 0);
-    return *(status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128);
+    keep(status);
+    return *status_;
   }
   /// The exit status; nothing when the command has not ended within the time.
   std::optional<int> waitFor(double seconds) {
@@ -55,13 +56,16 @@ class BackgroundCommand {
     while (!status_ && std::chrono::steady_clock::now() < end) {
       int status = 0;
       if (waitpid(pid_, &status, WNOHANG) == pid_) {
-        status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+        keep(status);
         break;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return status_;
   }
+
+  /// Whether it has ended, and by a signal.
+  bool endedBySignal() const { return ended_by_signal_; }
 
   std::string output() const {
     std::ifstream file(log_);
@@ -87,8 +91,14 @@ class BackgroundCommand {
   }
 
  private:
+  void keep(int status) {
+    ended_by_signal_ = WIFSIGNALED(status);
+    status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  }
+
   std::string log_;
   pid_t pid_ = 0;
+  bool ended_by_signal_ = false;
   std::optional<int> status_;
 };
 

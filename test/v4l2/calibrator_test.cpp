@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "support/foreign_program.h"
 #include "support/node_process.h"
 #include "support/virtual_screen.h"
 #include "v4l2/checkerboard.h"
@@ -43,12 +44,18 @@ TEST(Calibrator, CommitSavesTheGeometryOfTheCameras) {
   // cameracalibrator.py waits for the services for five seconds only.
   ASSERT_TRUE(comesTrue([&] { return !left.messages.empty() && !right.messages.empty(); }));
   EXPECT_EQ(right.messages.back()->K[0], 0.0) << "not calibrated yet";
-  const NodeProcess calibration({"/usr/bin/env", "LIBGL_ALWAYS_SOFTWARE=1", PRESS_BUTTONS, "--size", "8x6",
-                                 "--square", "0.051", "--approximate", "0.02",
-                                 "right:=/camera/right/image_raw", "left:=/camera/left/image_raw",
-                                 "right_camera:=/camera/right", "left_camera:=/camera/left"});
+  ForeignProgram calibration("cameracalibrator",
+                             "export LIBGL_ALWAYS_SOFTWARE=1; exec " PRESS_BUTTONS
+                             " --size 8x6 --square 0.051 --approximate 0.02"
+                             " right:=/camera/right/image_raw left:=/camera/left/image_raw"
+                             " right_camera:=/camera/right left_camera:=/camera/left");
   // The right camera's calibration is committed last.
-  ASSERT_TRUE(comesTrue([&] { return right.messages.back()->K[0] != 0.0; }, 400s));
+  const auto is_committed = [&] {
+    ros::spinOnce();
+    return right.messages.back()->K[0] != 0.0;
+  };
+  ASSERT_TRUE(calibration.comesUp(is_committed, 400.0)) << calibration.command().output();
+  std::cout << calibration.command().output();
 
   const std::string folder = "/tmp/ros_home/camera_info/";
   EXPECT_TRUE(std::filesystem::exists(folder + "left.yaml"));

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/foreign_program.h"
 #include "support/node_process.h"
 #include "support/virtual_screen.h"
 #include "v4l2/ros_probe.h"
@@ -67,7 +68,8 @@ TEST(FirstImages, ListedCamerasAreLaunchedAndSeenOnTheScreen) {
   Topic<sensor_msgs::Image> left("camera/left/image_raw");
   const NodeProcess launch({"/usr/bin/roslaunch", CAPTURE_LAUNCH, found[1], found[2],
                             "config:=/tmp/slow_cameras.yaml", "load_image_proc:=false"});
-  const NodeProcess viewer({"/usr/bin/rosrun", "image_view", "image_view", "image:=/camera/left/image_raw"});
+  ForeignProgram viewer("image_view",
+                        "exec /usr/bin/rosrun image_view image_view image:=/camera/left/image_raw");
   ASSERT_TRUE(comesTrue([&] { return !left.messages.empty(); }));
   ASSERT_EQ(left.messages.back()->encoding, "bgr8");
 
@@ -78,7 +80,7 @@ TEST(FirstImages, ListedCamerasAreLaunchedAndSeenOnTheScreen) {
     seen = screen.pixels();
     return showsInOrder(seen, bars);
   };
-  ASSERT_TRUE(comesTrue(look));
+  ASSERT_TRUE(viewer.comesUp(look, 300.0)) << viewer.command().output();
   const cv::Mat before = seen;
   EXPECT_TRUE(comesTrue([&] { return look() && cv::norm(before, seen, cv::NORM_INF) > 0.0; }))
       << "the image stands still";
