@@ -56,7 +56,7 @@ class Results:
     def frames(self, row):
         """Lines of frames.csv of an evaluated drive."""
         with open(os.path.join(self.folder, "evaluated", row["drive"], row["config"], "frames.csv")) as file:
-            return [{key: float(value) for key, value in line.items() if value} for line in csv.DictReader(file)]
+            return [{key: float(value) for key, value in line.items() if value and key != "reason"} for line in csv.DictReader(file)]
 
     def waypoint_times(self, row):
         """Seconds from the first image to each passing of a way-point."""

@@ -131,6 +131,7 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
     FrameErrors frame;
     frame.time_s = record.time_s - input.frames.front().time_s;
     frame.lost = !record.T_odom_base;
+    frame.reason = record.reason;
     frame.features = record.features;
     frame.inliers = record.inliers;
     frame.position_m = T_odom_base[i].translation();

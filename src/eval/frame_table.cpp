@@ -12,11 +12,20 @@ std::string cell(double value) {
   return fmt::format("{:.9g}", value);
 }
 
+/// Text as a field of a CSV file.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
 }  // namespace
 
 std::string toCsv(const std::vector<FrameErrors>& frames) {
   std::string text =
-      "time_s,lost,features,inliers,x_m,y_m,z_m,true_x_m,true_y_m,true_z_m,absolute_error_m,rotation_error_deg\n";
+      "time_s,lost,features,inliers,x_m,y_m,z_m,true_x_m,true_y_m,true_z_m,absolute_error_m,rotation_error_deg,"
+      "reason\n";
   for (const FrameErrors& frame : frames) {
     const Eigen::Vector3d truth =
         frame.ground_truth_m.value_or(Eigen::Vector3d::Constant(EvaluationSummary::kUnknown));
@@ -26,7 +35,7 @@ std::string toCsv(const std::vector<FrameErrors>& frames) {
                                truth.y(), truth.z(), frame.absolute_error_m, frame.rotation_error_deg}) {
       text += "," + cell(value);
     }
-    text += "\n";
+    text += "," + quoted(frame.reason) + "\n";
   }
   return text;
 }

@@ -8,6 +8,8 @@
 #include "core/atomic_file.h"
 #include "eval/figures.h"
 #include "eval/gnuplot.h"
+#include "eval/losses.h"
+#include "eval/truth_frame.h"
 
 namespace stereo_nav::eval {
 namespace {
@@ -117,6 +119,18 @@ std::string timingTable(const TimingSummary& timing) {
          "</table>\n";
 }
 
+std::string lossTable(const std::vector<Loss>& losses) {
+  if (losses.empty()) return "";
+  std::string text = "<h2>Lost frames</h2>\n<table>\n";
+  for (const Loss& loss : losses) {
+    const std::string line = toText(loss);
+    const std::size_t colon = line.find(": ");
+    text += "<tr><td>" + line.substr(0, colon) + "</td><td>" + htmlEscaped(line.substr(colon + 2)) +
+            "</td></tr>\n";
+  }
+  return text + "</table>\n";
+}
+
 /// The drawing alone, without the XML prologue of a separate file.
 std::string inlineSvg(const std::string& svg) {
   return svg.substr(std::min(svg.find("<svg"), svg.size()));
@@ -144,6 +158,9 @@ std::optional<std::string> writeReport(const std::string& directory, const Evalu
   if (input.ground_truth.empty()) {
     note += "<p class=\"warning\">No ground truth: the errors are unknown, the path is the estimate's.</p>\n";
   }
+  if (const auto frame = wrongTruthFrame(input, summary)) {
+    note += "<p class=\"warning\">" + htmlEscaped(*frame) + "</p>\n";
+  }
   writeFileAtomically(directory + "/report.html",
                       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>Odometry: " +
@@ -152,7 +169,8 @@ std::optional<std::string> writeReport(const std::string& directory, const Evalu
                           "<p class=\"what\"><code>" +
                           htmlEscaped(summary.input) + "</code> with <code>" + htmlEscaped(summary.config) +
                           "</code></p>\n" + tiles(summary, timing) + note + "<h2>Pictures</h2>\n" + pictures +
-                          accuracyTable(summary) + timingTable(timing) + "</main>\n</body>\n</html>\n");
+                          accuracyTable(summary) + lossTable(lossesOf(evaluation.frames)) +
+                          timingTable(timing) + "</main>\n</body>\n</html>\n");
   return warning;
 }
 

@@ -15,6 +15,8 @@
 #include <sstream>
 
 #include "ros/image_stamp.h"
+#include "ros/recorded_depth.h"
+#include "ros/rig_topics.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/topics.h"
 
@@ -53,8 +55,11 @@ void checkFinite(const ImuSample& sample, const std::string& topic) {
 Recording::Recording(const std::string& path, const RecordingOptions& options) : path_(path) {
   try {
     bag_.open(path, rosbag::bagmode::Read);
-    findTopics();
+    findTopics(options);
     readMessages();
+    const vision::BitDepth depth = recordedDepth(bag_, topics_.left, topics_.right);
+    mono16_bits_ = depth.bits;
+    mono16_swapped_ = depth.swapped;
     readImu();
     readTransforms();
     pairImages(options);
@@ -75,6 +80,11 @@ std::string Recording::topicList() const {
 
 std::optional<std::string> Recording::find(const std::string& relative_name) const {
   for (const std::string& topic : all_topics_) {
+    const std::string name = withoutSlash(topic);
+    if (name == rig_prefix_ + relative_name || (several_rigs_ && name == relative_name)) return topic;
+  }
+  if (several_rigs_) return std::nullopt;  // another rig's would be wrong
+  for (const std::string& topic : all_topics_) {
     if (topic == relative_name || endsWith(topic, "/" + relative_name)) return topic;
   }
   return std::nullopt;
@@ -87,11 +97,18 @@ std::string Recording::require(const std::string& relative_name) const {
                    ". Record both cameras' image_raw and camera_info");
 }
 
-void Recording::findTopics() {
+void Recording::findTopics(const RecordingOptions& options) {
   std::set<std::string> names;
   rosbag::View view(bag_);
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) names.insert(connection->topic);
   all_topics_.assign(names.begin(), names.end());
+  several_rigs_ = rigNamespaces(all_topics_).size() > 1;
+  try {
+    rig_prefix_ = chooseRig(all_topics_, options.rig);
+  } catch (const InputError& error) {
+    throw InputError(path_ + ": " + error.what());
+  }
+  if (!rig_prefix_.empty()) rig_prefix_ += "/";
   topics_.left = require(topics::kLeftImage);
   topics_.right = require(topics::kRightImage);
   topics_.left_info = require(topics::kLeftInfo);
@@ -261,6 +278,7 @@ void Recording::forEachPair(const std::function<void(const RawPair&)>& handle) c
     pair_of_right[right_stamps_[pairs_[i].right]] = i;
   }
   std::size_t next = 0;
+  const vision::BitDepth depth{mono16_bits_, mono16_swapped_};
   rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
   for (const rosbag::MessageInstance& message : view) {
     const auto image = message.instantiate<sensor_msgs::Image>();
@@ -271,7 +289,7 @@ void Recording::forEachPair(const std::function<void(const RawPair&)>& handle) c
     (is_left ? waiting_left : waiting_right)[pair->second] = image;
     while (waiting_left.count(next) != 0 && waiting_right.count(next) != 0) {
       handle({pairs_[next].left_time_s, pairs_[next].right_time_s, pairs_[next].rolling_shutter_s,
-              toMono8(waiting_left[next]), toMono8(waiting_right[next])});
+              toMono8(waiting_left[next], depth), toMono8(waiting_right[next], depth)});
       waiting_left.erase(next);
       waiting_right.erase(next);
       ++next;

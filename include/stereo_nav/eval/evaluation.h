@@ -15,6 +15,7 @@ namespace stereo_nav::eval {
 struct FrameRecord {
   double time_s = 0.0;                           ///< stamp of the left image
   std::optional<Eigen::Isometry3d> T_odom_base;  ///< absent: the frame is lost
+  std::string reason;                            ///< why the frame is lost; empty where it is not
   unsigned features = 0;                         ///< number of features of the frame
   unsigned inliers = 0;                          ///< features that agree with the motion found
   FrameTiming timing;                            ///< how long the frame took
@@ -26,7 +27,8 @@ struct EvaluationInput {
   std::string config;               ///< likewise
   std::vector<FrameRecord> frames;  ///< every input frame, in order of time
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< of the left optical frame
-  Trajectory ground_truth;  ///< of base_link in any fixed frame; empty: no ground truth (see ofOtherBody())
+  std::string camera_frame;  ///< name of that frame, for messages; may be empty
+  Trajectory ground_truth;   ///< of base_link in any fixed frame; empty: no ground truth (see ofOtherBody())
 };
 
 /// summary.json. Numbers that cannot be known (no ground truth, path too short) are NaN, `null` in the file.
@@ -64,6 +66,7 @@ struct EvaluationSummary {
 struct FrameErrors {
   double time_s = 0.0;                                      ///< since the first frame
   bool lost = false;                                        ///< the frame has no pose
+  std::string reason;                                       ///< FrameRecord::reason
   unsigned features = 0;                                    ///< FrameRecord::features
   unsigned inliers = 0;                                     ///< FrameRecord::inliers
   Eigen::Vector3d position_m;                               ///< base_link in odom, held while lost

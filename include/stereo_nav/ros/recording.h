@@ -23,6 +23,7 @@ namespace stereo_nav::ros_io {
 struct RecordingOptions {
   double start_s = 0.0;                                         ///< after the first left image
   double duration_s = std::numeric_limits<double>::infinity();  ///< counted from start_s
+  std::optional<std::string> rig;           ///< namespace of the rig, where the recording holds several
   std::optional<double> rolling_shutter_s;  ///< replaces the value of camera/sync; 0: global shutter
 };
 
@@ -81,7 +82,7 @@ class Recording {
     std::optional<std::string> sync, imu, imu_quat;
   };
 
-  void findTopics();
+  void findTopics(const RecordingOptions& options);
   void readMessages();
   void readImu();
   void readTransforms();
@@ -95,6 +96,8 @@ class Recording {
   mutable rosbag::Bag bag_;
   std::vector<std::string> all_topics_;
   Topics topics_;
+  std::string rig_prefix_;  ///< of the rig's topics, without slash at its start
+  bool several_rigs_ = false;
   sensor_msgs::CameraInfo left_info_;
   sensor_msgs::CameraInfo right_info_;
   std::vector<ImuSample> imu_;
@@ -104,6 +107,8 @@ class Recording {
   std::vector<ros::Time> right_stamps_;
   std::vector<StampPair> pairs_;
   std::size_t unpaired_images_ = 0;
+  int mono16_bits_ = 16;         ///< that mono16 images fill
+  bool mono16_swapped_ = false;  ///< whether their bytes are exchanged
 };
 
 }  // namespace stereo_nav::ros_io

@@ -1,12 +1,16 @@
 // Runs the odometry on a recording, without a master, and writes trajectory, figures and report.
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 
 #include "core/atomic_file.h"
+#include "eval/losses.h"
+#include "eval/truth_frame.h"
 #include "stereo_nav/eval/report.h"
 #include "tools/common/program.h"
 #include "tools/evaluate/evaluate_options.h"
@@ -14,6 +18,8 @@
 
 namespace stereo_nav::tools {
 namespace {
+
+constexpr int kMostlyLost = 3;
 
 void showProgress(std::size_t done, std::size_t all) {
   if (isatty(STDERR_FILENO) == 0) return;
@@ -28,19 +34,52 @@ void printValue(const char* name, double value, const char* unit) {
   }
 }
 
-void printSummary(const eval::EvaluationSummary& summary, const eval::TimingSummary& timing,
-                  std::size_t unpaired) {
-  std::printf("%s with %s\n", summary.input.c_str(), summary.config.c_str());
-  std::printf("  %-28s %zu, %zu lost\n", "frames", summary.frames, summary.frames_lost);
-  if (unpaired != 0)
-    std::printf("  %-28s %zu (no partner within half a period)\n", "images without a pair", unpaired);
-  printValue("path", summary.path_length_m, "m");
+std::string lengthsText(const std::vector<double>& lengths_m) {
+  std::string text;
+  for (const double length_m : lengths_m) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%g", length_m);
+    text += (text.empty() ? "% over " : ", ") + std::string(number);
+  }
+  return text.empty() ? "%" : text + " m";
+}
+
+void printErrors(const eval::EvaluationSummary& summary) {
+  if (summary.frames_with_ground_truth == 0) {
+    std::printf("  no ground truth: the errors are unknown (--ground-truth names a file or a topic)\n");
+    return;
+  }
   printValue("ATE (RMSE, SE(3) aligned)", summary.ate_rmse_m, "m");
-  printValue("relative translation error", summary.rpe_translation_percent, "%");
-  printValue("relative rotation error", summary.rpe_rotation_deg_per_m, "deg/m");
+  if (summary.segment_lengths_m.empty()) {
+    std::printf("  %-28s unknown: the path is too short for a length of 0.5 m or more\n", "relative errors");
+  } else {
+    printValue("relative translation error", summary.rpe_translation_percent,
+               lengthsText(summary.segment_lengths_m).c_str());
+    printValue("relative rotation error", summary.rpe_rotation_deg_per_m, "deg/m");
+  }
   printValue("error at the end", summary.end_error_percent, "% of the path");
   printValue("RMSE x", summary.rmse_x_m, "m");
   printValue("RMSE y", summary.rmse_y_m, "m");
+}
+
+void printLosses(const std::vector<eval::Loss>& losses) {
+  constexpr std::size_t kShown = 10;
+  for (std::size_t i = 0; i < std::min(losses.size(), kShown); ++i) {
+    std::printf("  lost: %s\n", eval::toText(losses[i]).c_str());
+  }
+  if (losses.size() > kShown) std::printf("  and %zu more losses, see report.html\n", losses.size() - kShown);
+}
+
+void printSummary(const eval::Evaluation& evaluation, const eval::TimingSummary& timing,
+                  std::size_t unpaired) {
+  const eval::EvaluationSummary& summary = evaluation.summary;
+  std::printf("%s with %s\n", summary.input.c_str(), summary.config.c_str());
+  std::printf("  %-28s %zu, %zu lost\n", "frames", summary.frames, summary.frames_lost);
+  printLosses(eval::lossesOf(evaluation.frames));
+  if (unpaired != 0)
+    std::printf("  %-28s %zu (no partner within half a period)\n", "images without a pair", unpaired);
+  printValue("path", summary.path_length_m, "m");
+  printErrors(summary);
   std::printf("  %-28s %.1f features, %.1f inliers\n", "mean per frame", summary.features_mean,
               summary.inliers_mean);
   std::printf("  %-28s %.2f ms median, %.2f ms p95\n", "odometry per frame", timing.median_ms, timing.p95_ms);
@@ -48,7 +87,8 @@ void printSummary(const eval::EvaluationSummary& summary, const eval::TimingSumm
     printValue("disparity per frame", timing.disparity_median_ms, "ms");
 }
 
-void writeResults(const EvaluateOptions& options, const EvaluationRun& run) {
+/// Exit status: 3 when most of the recording has no pose.
+int writeResults(const EvaluateOptions& options, const EvaluationRun& run) {
   const eval::Evaluation evaluation = eval::evaluate(run.input);
   const eval::TimingSummary timing = eval::summariseTiming(run.timings);
   const std::string folder = options.output + "/";
@@ -58,17 +98,26 @@ void writeResults(const EvaluateOptions& options, const EvaluationRun& run) {
   writeFileAtomically(folder + "frames.csv", eval::toCsv(evaluation.frames));
   writeFileAtomically(folder + "timing.json", eval::toJson(timing));
   const auto warning = eval::writeReport(options.output, evaluation, run.input, timing);
-  printSummary(evaluation.summary, timing, run.unpaired_images);
+  printSummary(evaluation, timing, run.unpaired_images);
+  if (const auto frame = eval::wrongTruthFrame(run.input, evaluation.summary)) {
+    std::fprintf(stderr, "evaluate: %s\n", frame->c_str());
+  }
   if (warning) std::fprintf(stderr, "evaluate: %s\n", warning->c_str());
   std::printf("results in %s\n", options.output.c_str());
+  const eval::EvaluationSummary& summary = evaluation.summary;
+  if (2 * summary.frames_lost <= summary.frames) return 0;
+  std::fprintf(stderr,
+               "evaluate: %zu of %zu frames are lost, more than half: the trajectory does not show the drive "
+               "(exit status 3)\n",
+               summary.frames_lost, summary.frames);
+  return kMostlyLost;
 }
 
 int run(int argc, char** argv) {
   const auto options = parseEvaluateOptions(argc, argv);
   if (!options) return 0;
   { const AtomicFile writable(options->output + "/summary.json"); }  // before the work, not after it
-  writeResults(*options, runEvaluation(*options, showProgress));
-  return 0;
+  return writeResults(*options, runEvaluation(*options, showProgress));
 }
 
 }  // namespace

@@ -42,10 +42,11 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("ground-truth", po::value<std::string>(),
        "TUM trajectory file, or topic in the bag (default: ground_truth/odom if the bag has it)")  //
       ("ground-truth-frame", po::value<std::string>(),
-       "frame whose poses the ground truth gives (default: the topic's child frame, else base_link)")   //
-      ("output", po::value<std::string>(), "folder for the results (default: NAME_OF_BAG_evaluation)")  //
-      ("start", po::value<double>(&options.part.start_s), "seconds of the recording to skip")           //
-      ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")      //
+       "frame whose poses the ground truth gives (default: the topic's child frame, else base_link)")    //
+      ("output", po::value<std::string>(), "folder for the results (default: NAME_OF_BAG_evaluation)")   //
+      ("start", po::value<double>(&options.part.start_s), "seconds of the recording to skip")            //
+      ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")       //
+      ("namespace", po::value<std::string>(), "rig to use, where the bag holds several, e.g. /robot_a")  //
       ("rolling-shutter-ms", po::value<double>(),
        "time from an image's first row to its last, instead of what the recording says; 0: global shutter. "
        "The stamps are taken as those of the middle row")  //
@@ -62,6 +63,7 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
   if (values.count("ground-truth-frame") != 0) {
     options.ground_truth_frame = values["ground-truth-frame"].as<std::string>();
   }
+  if (values.count("namespace") != 0) options.part.rig = values["namespace"].as<std::string>();
   if (values.count("rolling-shutter-ms") != 0)
     options.part.rolling_shutter_s = 1e-3 * values["rolling-shutter-ms"].as<double>();
   options.output = values.count("output") != 0

@@ -98,6 +98,8 @@ class Run {
     record.time_s = pair.left_time_s;
     if (result.state != odometry::State::kLost)
       record.T_odom_base = basePose(T_base_camera_, result.T_start_camera);
+    else
+      record.reason = result.reason;
     // The thesis detects a new set in every frame, the default only where tracks are missing.
     record.features = std::max(result.features_detected, result.features_tracked);
     record.inliers = result.inliers;
@@ -162,6 +164,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.input = std::filesystem::path(options.bag).filename().string();
   run.input.config = std::filesystem::path(options.config).filename().string();
   run.input.T_base_camera = T_base_camera;
+  run.input.camera_frame = recording.leftInfo().header.frame_id;
   run.input.ground_truth = groundTruthOfBase(options, recording);
 
   for (int repetition = 0; repetition < options.repeat; ++repetition) {

@@ -5,6 +5,7 @@
 #include "core/text_table.h"
 #include "stereo_nav/core/input_error.h"
 #include "tools/import_sequence/image_stamps.h"
+#include "tools/import_sequence/raw_pair.h"
 #include "tools/import_sequence/rectified_camera.h"
 #include "tools/import_sequence/sequence.h"
 
@@ -17,13 +18,15 @@ namespace fs = std::filesystem;
 class CalibrationFile {
  public:
   explicit CalibrationFile(const std::string& path) : path_(path) {
-    if (!fs::exists(path)) throw InputError(path + ": does not exist; " + expected());
+    exists_ = fs::exists(path);
+    if (!exists_) return;
     for (const auto& row : readTextTable(path)) values_[row.fields[0]] = row.number(1);
   }
 
   bool has(const std::string& key) const { return values_.count(key) != 0; }
 
   double positive(const std::string& key) const {
+    if (!exists_) throw InputError(path_ + ": does not exist; " + expected());
     if (!has(key)) throw InputError(path_ + ": has no line '" + key + "'; " + expected());
     const double value = values_.at(key);
     if (value > 0.0) return value;
@@ -33,10 +36,12 @@ class CalibrationFile {
  private:
   static std::string expected() {
     return "expected are the lines 'fx', 'fy', 'cx', 'cy' in px and 'baseline' in m, such as 'fx 567.2', of "
-           "the rectified pair";
+           "the rectified pair; for images that are not rectified left.yaml and right.yaml (ROS), camchain.yaml "
+           "(Kalibr), or intrinsics.yml and extrinsics.yml (OpenCV) in its place";
   }
 
   std::string path_;
+  bool exists_ = false;
   std::map<std::string, double> values_;
 };
 
@@ -74,37 +79,62 @@ void readVideos(const std::string& folder, const CalibrationFile& calibration, S
   sequence.right = readTrack(readVideo(right), rate_hz);
 }
 
-}  // namespace
-
-Sequence readImages(const std::string& folder) {
-  const CalibrationFile calibration(folder + "/calib.txt");
-  RectifiedCamera camera{0,
-                         0,
-                         calibration.positive("fx"),
-                         calibration.positive("fy"),
-                         calibration.positive("cx"),
-                         calibration.positive("cy"),
-                         0.0};
-  const double baseline_m = calibration.positive("baseline");
-  Sequence sequence;
+void readFrames(const std::string& folder, const CalibrationFile& calibration, Sequence& sequence) {
   if (fs::is_directory(folder + "/left") && fs::is_directory(folder + "/right")) {
     std::optional<double> rate_hz;
     if (calibration.has("fps")) rate_hz = calibration.positive("fps");
     readImageFolders(folder, rate_hz, sequence);
-  } else {
-    readVideos(folder, calibration, sequence);
+    return;
   }
+  readVideos(folder, calibration, sequence);
   const std::size_t frames = sequence.left.frames->size();
-  if (frames != sequence.right.frames->size()) {
-    sequence.notes.push_back("left has " + std::to_string(frames) + " frames, right " +
-                             std::to_string(sequence.right.frames->size()) + ": the surplus is left out");
-  }
+  if (frames == sequence.right.frames->size()) return;
+  sequence.notes.push_back("left has " + std::to_string(frames) + " frames, right " +
+                           std::to_string(sequence.right.frames->size()) + ": the surplus is left out");
+}
+
+/// The left camera's numbers with the right one's baseline; the size is that of the images.
+RectifiedCamera readRectified(const CalibrationFile& calibration) {
+  return {0,
+          0,
+          calibration.positive("fx"),
+          calibration.positive("fy"),
+          calibration.positive("cx"),
+          calibration.positive("cy"),
+          calibration.positive("baseline")};
+}
+
+void useRectified(RectifiedCamera camera, Sequence& sequence) {
   const cv::Mat image = sequence.left.frames->read(0);
   camera.width = image.cols;
   camera.height = image.rows;
-  sequence.left.info = toCameraInfo(camera);
-  camera.baseline_m = baseline_m;
   sequence.right.info = toCameraInfo(camera);
+  camera.baseline_m = 0.0;
+  sequence.left.info = toCameraInfo(camera);
+}
+
+}  // namespace
+
+Sequence readImages(const std::string& folder) {
+  const CalibrationFile calibration(folder + "/calib.txt");
+  const auto raw = readRawPair(folder);
+  const auto ros = readRosPair(folder);
+  if ((raw && ros) || (calibration.has("fx") && (raw || ros))) {
+    throw InputError(folder + ": holds more than one calibration (" +
+                     (calibration.has("fx") ? folder + "/calib.txt" : ros->source) + " and " +
+                     (raw ? raw->source : ros->source) + "); leave the one that is right");
+  }
+  RectifiedCamera camera{};
+  if (!raw && !ros) camera = readRectified(calibration);
+  Sequence sequence;
+  readFrames(folder, calibration, sequence);
+  if (raw) {
+    useRawPair(*raw, sequence);
+  } else if (ros) {
+    useRectification(*ros, sequence);
+  } else {
+    useRectified(camera, sequence);
+  }
   return sequence;
 }
 

@@ -63,7 +63,9 @@ Sequence readKitti(const std::string& folder);
 
 /// Rectified pairs in `DIR/left` and `DIR/right`, or in two videos whose names end in L and R or in left and
 /// right; `calib.txt` with lines `fx`, `fy`, `cx`, `cy` (px), `baseline` (m) and, if need be, `fps`. Frame i
-/// is taken at kStartTime_s + i / fps; without that line a video's own rate counts, and 10 Hz for folders.
+/// is taken at kStartTime_s + i / fps; without that line a video's own rate counts, and 10 Hz for folders
+/// (other sources of stamps: image_stamps.h). Pairs that are not rectified have another calibration
+/// (raw_pair.h).
 Sequence readImages(const std::string& folder);
 
 }  // namespace stereo_nav::tools

@@ -1,5 +1,7 @@
 #include "stereo_nav/eval/evaluation.h"
 
+#include "eval/losses.h"
+#include "eval/truth_frame.h"
 #include "stereo_nav/core/input_error.h"
 #include "support/trajectories.h"
 
@@ -171,14 +173,49 @@ TEST(Evaluation, frameTableLeavesOutWhatIsNotKnown) {
   frame.position_m = {1.0, -0.25, 0.0};
   FrameErrors lost = frame;
   lost.lost = true;
+  lost.reason = "3 features, \"few\"";
   lost.ground_truth_m = Eigen::Vector3d(2.0, 0.0, 0.125);
   lost.absolute_error_m = 1e-3;
   lost.rotation_error_deg = 3.0;
   const std::string text = toCsv({frame, lost});
   EXPECT_EQ(text.substr(0, text.find(',')), "time_s");
   EXPECT_EQ(text.substr(text.find('\n') + 1),
-            "0.5,0,150,60,1,-0.25,0,,,,,\n"
-            "0.5,1,150,60,1,-0.25,0,2,0,0.125,0.001,3\n");
+            "0.5,0,150,60,1,-0.25,0,,,,,,\n"
+            "0.5,1,150,60,1,-0.25,0,2,0,0.125,0.001,3,\"3 features, \"\"few\"\"\"\n");
+}
+
+TEST(Losses, framesLostOneAfterAnotherAreOneLossWithItsFirstReason) {
+  auto input = straightDrive(1.0);
+  for (const std::size_t i : {3u, 4u, 5u, 9u}) input.frames[i].T_odom_base.reset();
+  input.frames[3].reason = "dark";
+  input.frames[4].reason = "darker";
+  const auto losses = lossesOf(evaluate(input).frames);
+  ASSERT_EQ(losses.size(), 2u);
+  EXPECT_EQ(toText(losses[0]), "frames 3 to 5 (3.00 to 5.00 s): dark");
+  EXPECT_EQ(toText(losses[1]), "frame 9 (9.00 s): no reason given");
+}
+
+TEST(TruthFrame, groundTruthOfTheCameraIsRecognised) {
+  auto input = straightDrive(1.0);
+  // A bend, so that the positions fix the alignment.
+  for (std::size_t i = 0; i < input.frames.size(); ++i) {
+    const double angle = 0.1 * static_cast<double>(i);
+    input.frames[i].T_odom_base =
+        pose(10.0 * std::sin(angle), 10.0 - 10.0 * std::cos(angle), 0, angle * 180.0 / M_PI);
+    input.ground_truth[i].T_world_body = *input.frames[i].T_odom_base;
+  }
+  input.T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  input.camera_frame = "camera_left_optical";
+  EXPECT_FALSE(wrongTruthFrame(input, evaluate(input).summary));
+  const Trajectory of_base = input.ground_truth;
+  input.ground_truth = ofOtherBody(of_base, input.T_base_camera);
+  const auto camera = wrongTruthFrame(input, evaluate(input).summary);
+  ASSERT_TRUE(camera);
+  EXPECT_NE(camera->find("use --ground-truth-frame camera_left_optical"), std::string::npos) << *camera;
+  input.ground_truth = ofOtherBody(of_base, pose(0, 0, 0, 90.0));
+  const auto other = wrongTruthFrame(input, evaluate(input).summary);
+  ASSERT_TRUE(other);
+  EXPECT_NE(other->find("another frame than base_link"), std::string::npos) << *other;
 }
 
 }  // namespace

@@ -30,7 +30,11 @@ EvaluationInput circle(bool with_ground_truth) {
     frame.time_s = 0.1 * i;
     const double angle = 0.1 * i;
     const Eigen::Isometry3d T_odom_base = pose(std::sin(angle), 1.0 - std::cos(angle), 0.01 * i, 5.7 * i);
-    if (i != 30) frame.T_odom_base = T_odom_base;
+    if (i != 30) {
+      frame.T_odom_base = T_odom_base;
+    } else {
+      frame.reason = "a <dark> frame";
+    }
     frame.features = 150;
     frame.inliers = 70;
     frame.timing = {5.0, 12.0, {{"it's corners", 2.0}, {"tracking_klt", 3.0}}};
@@ -58,6 +62,7 @@ TEST(Report, holdsItsPictures) {
   const auto html = folder.read("report.html");
   EXPECT_EQ(count(html, "<svg"), 5u);
   EXPECT_EQ(count(html, "</svg>"), 5u);
+  EXPECT_EQ(count(html, "frame 30 (3.00 s)</td><td>a &lt;dark> frame"), 1u);
   EXPECT_NE(html.find("a &lt;bag> &amp; its name"), std::string::npos);
   EXPECT_NE(html.find("1 / 60"), std::string::npos);
   EXPECT_EQ(html.find("src="), std::string::npos) << "the page must not need other files";

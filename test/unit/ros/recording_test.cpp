@@ -1,11 +1,14 @@
 #include "stereo_nav/ros/recording.h"
 
 #include <gtest/gtest.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <std_msgs/String.h>
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 
 #include "stereo_nav/core/input_error.h"
@@ -163,6 +166,81 @@ TEST_F(RecordingTest, ANaNInTheImuIsRefused) {
     bag.write(topics::kImu, ros::Time(1000.0), imu);
   }
   EXPECT_TRUE(contains(refusal(path("nan.bag")), "imu/data holds a NaN"));
+}
+
+/// Copies a recording; `change` may edit images, `rename` gives the topics.
+void copyBag(const std::string& from, const std::string& to, rosbag::bagmode::BagMode mode,
+             const std::function<std::string(const std::string&)>& rename,
+             const std::function<void(sensor_msgs::Image&)>& change) {
+  rosbag::Bag source(from);
+  rosbag::Bag copy(to, mode);
+  rosbag::View view(source);
+  for (const rosbag::MessageInstance& message : view) {
+    const std::string topic = rename(message.getTopic());
+    if (topic.empty()) continue;
+    if (const auto image = message.instantiate<sensor_msgs::Image>()) {
+      change(*image);
+      copy.write(topic, message.getTime(), *image);
+    } else {
+      copy.write(topic, message.getTime(), message);
+    }
+  }
+}
+
+TEST_F(RecordingTest, SeveralRigsAreListedAndOneCanBeChosen) {
+  test::FixtureBag fixture;
+  fixture.frames = 2;
+  test::writeFixtureBag(path("one.bag"), fixture);
+  const auto below = [](const std::string& space, const std::string& left_out) {
+    return [=](const std::string& topic) {
+      const std::string name = topic.front() == '/' ? topic.substr(1) : topic;
+      return name == left_out ? std::string() : name == topics::kTfStatic ? topic : space + name;
+    };
+  };
+  const auto keep = [](sensor_msgs::Image&) {};
+  copyBag(path("one.bag"), path("two.bag"), rosbag::bagmode::Write, below("/a/", topics::kLeftInfo), keep);
+  copyBag(path("one.bag"), path("two.bag"), rosbag::bagmode::Append, below("/b/", ""), keep);
+  const std::string message = refusal(path("two.bag"));
+  EXPECT_TRUE(contains(message, "/a (lacks camera/left/camera_info), /b; choose one of them by --namespace"))
+      << message;
+  RecordingOptions options;
+  options.rig = "/b";
+  EXPECT_EQ(Recording(path("two.bag"), options).pairs(), 2u);
+  options.rig = "a";
+  EXPECT_THROW(Recording(path("two.bag"), options), InputError) << "its calibration would be that of /b";
+  options.rig = "c";
+  EXPECT_THROW(Recording(path("two.bag"), options), InputError);
+}
+
+TEST_F(RecordingTest, Mono16OfTwelveBitsIsAsBrightAsMono8) {
+  test::FixtureBag fixture;
+  fixture.frames = 2;
+  test::writeFixtureBag(path("eight.bag"), fixture);
+  for (const bool big_endian : {false, true}) {
+    copyBag(
+        path("eight.bag"), path("twelve.bag"), rosbag::bagmode::Write, [](const std::string& t) { return t; },
+        [&](sensor_msgs::Image& image) {
+          std::vector<std::uint8_t> data;
+          for (const std::uint8_t grey : image.data) {
+            const int value = 16 * grey;
+            data.push_back(static_cast<std::uint8_t>(big_endian ? value >> 8 : value & 0xff));
+            data.push_back(static_cast<std::uint8_t>(big_endian ? value & 0xff : value >> 8));
+          }
+          image.data = data;
+          image.encoding = "mono16";
+          image.step *= 2;
+          image.is_bigendian = 0;  // wrong for one of the two
+        });
+    std::vector<cv::Mat> expected, images;
+    Recording(path("eight.bag"), {}).forEachPair([&](const RawPair& pair) {
+      expected.push_back(pair.left.clone());
+    });
+    Recording(path("twelve.bag"), {}).forEachPair([&](const RawPair& pair) {
+      images.push_back(pair.left.clone());
+    });
+    ASSERT_EQ(images.size(), expected.size());
+    EXPECT_LE(cv::norm(images[0], expected[0], cv::NORM_INF), 1.0) << big_endian;
+  }
 }
 
 }  // namespace

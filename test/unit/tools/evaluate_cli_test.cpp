@@ -115,6 +115,22 @@ TEST_F(EvaluateTest, TheDisparityMapHasItsOwnParameters) {
   EXPECT_LT(narrow["inliers_mean"].get<double>(), 0.5 * wide["inliers_mean"].get<double>());
 }
 
+TEST_F(EvaluateTest, SaysWhichFramesAreLostAndEndsWithStatusThreeWhenTheyAreMost) {
+  int images = 0;
+  const auto covered =
+      copyWith<sensor_msgs::Image>("covered.bag", ros_io::topics::kLeftImage, [&](sensor_msgs::Image& image) {
+        if (images++ >= 4) std::fill(image.data.begin(), image.data.end(), std::uint8_t(0));
+        return true;
+      });
+  const auto result = evaluate(covered + " --output " + file("covered"));
+  EXPECT_EQ(result.status, 3) << result.output;
+  EXPECT_NE(result.output.find("8 of 12 frames are lost, more than half"), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("  lost: frames 4 to 11 (0.40 to 1.10 s): "), std::string::npos)
+      << result.output;
+  EXPECT_TRUE(fs::exists(folder / "covered/report.html"));
+}
+
 TEST_F(EvaluateTest, RefusesBadArguments) {
   expectRefusal("", "no BAG given");
   expectRefusal(file("room.bag") + " --start -1", "--start");

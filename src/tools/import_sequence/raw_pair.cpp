@@ -1,0 +1,139 @@
+#include "tools/import_sequence/raw_pair.h"
+
+#include <sensor_msgs/distortion_models.h>
+
+#include <algorithm>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/ros/conversions.h"
+#include "tools/import_sequence/rectified_camera.h"
+
+namespace stereo_nav::tools {
+namespace {
+
+namespace models = sensor_msgs::distortion_models;
+
+class RectifiedFrames : public FrameReader {
+ public:
+  RectifiedFrames(std::unique_ptr<FrameReader> frames, const sensor_msgs::CameraInfo& info)
+      : frames_(std::move(frames)), size_(static_cast<int>(info.width), static_cast<int>(info.height)) {
+    const cv::Matx33d K(info.K.data());
+    const cv::Matx33d R(info.R.data());
+    const cv::Matx34d P(info.P.data());
+    const cv::Matx33d K_rectified = P.get_minor<3, 3>(0, 0);
+    const cv::Mat D(info.D, true);
+    if (info.distortion_model == models::EQUIDISTANT) {
+      cv::fisheye::initUndistortRectifyMap(K, D, R, K_rectified, size_, CV_32FC1, columns_, rows_);
+    } else {
+      cv::initUndistortRectifyMap(K, D, R, K_rectified, size_, CV_32FC1, columns_, rows_);
+    }
+  }
+
+  std::size_t size() const override { return frames_->size(); }
+
+  cv::Mat read(std::size_t index) override {
+    const cv::Mat image = frames_->read(index);
+    if (image.size() != size_) return image;  // refused where the bag is written
+    cv::Mat rectified;
+    cv::remap(image, rectified, columns_, rows_, cv::INTER_LINEAR);
+    return rectified;
+  }
+
+ private:
+  std::unique_ptr<FrameReader> frames_;
+  cv::Size size_;
+  cv::Mat columns_;
+  cv::Mat rows_;
+};
+
+/// What image_proc rectifies by itself. It copies images whose coefficients are all 0, whatever R says.
+bool isRectifiedDownstream(const sensor_msgs::CameraInfo& info) {
+  const bool bends = std::any_of(info.D.begin(), info.D.end(), [](double value) { return value != 0.0; });
+  return info.distortion_model != models::EQUIDISTANT && bends && info.D.size() <= 8;
+}
+
+bool isRectified(const sensor_msgs::CameraInfo& info) {
+  const bool bends = std::any_of(info.D.begin(), info.D.end(), [](double value) { return value != 0.0; });
+  return !bends && info.distortion_model != models::EQUIDISTANT &&
+         cv::norm(cv::Matx33d(info.R.data()) - cv::Matx33d::eye()) < 1e-9 &&
+         cv::norm(cv::Matx33d(info.K.data()) - cv::Matx34d(info.P.data()).get_minor<3, 3>(0, 0)) < 1e-6;
+}
+
+void checkModel(const std::string& source, const sensor_msgs::CameraInfo& info) {
+  const std::string& model = info.distortion_model;
+  const std::size_t count = info.D.size();
+  const bool fits = (model == models::PLUMB_BOB && (count == 4 || count == 5)) ||
+                    (model == models::RATIONAL_POLYNOMIAL && (count == 8 || count == 12 || count == 14)) ||
+                    (model == models::EQUIDISTANT && count == 4) || (model.empty() && count == 0);
+  if (fits) return;
+  throw InputError(source + ": the lens model '" + model + "' with " + std::to_string(count) +
+                   " coefficients is not supported; calibrate as plumb_bob (5), rational_polynomial (8) or "
+                   "equidistant (4)");
+}
+
+sensor_msgs::CameraInfo toInfo(const RawLens& lens, const cv::Size& size, const cv::Matx33d& R,
+                               const cv::Matx34d& P) {
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(size.width);
+  info.height = static_cast<std::uint32_t>(size.height);
+  info.D = lens.D;
+  info.distortion_model = lens.model == LensModel::kEquidistant ? models::EQUIDISTANT
+                          : lens.D.size() > 5                   ? models::RATIONAL_POLYNOMIAL
+                                                                : models::PLUMB_BOB;
+  std::copy(lens.K.val, lens.K.val + 9, info.K.begin());
+  std::copy(R.val, R.val + 9, info.R.begin());
+  std::copy(P.val, P.val + 12, info.P.begin());
+  return info;
+}
+
+}  // namespace
+
+void useRawPair(const RawPair& pair, Sequence& sequence) {
+  const cv::Size size = pair.size.area() > 0 ? pair.size : sequence.left.frames->read(0).size();
+  const bool fisheye =
+      pair.left.model == LensModel::kEquidistant || pair.right.model == LensModel::kEquidistant;
+  // Without coefficients the rectified image keeps the focal length of the middle; OpenCV's polynomials do
+  // not describe the rim of a fisheye lens.
+  const std::vector<double> none(5, 0.0);
+  cv::Matx33d R_left, R_right;
+  cv::Matx34d P_left, P_right;
+  cv::Mat Q;
+  cv::stereoRectify(pair.left.K, fisheye ? none : pair.left.D, pair.right.K, fisheye ? none : pair.right.D,
+                    size, pair.R_right_left, pair.t_right_left, R_left, R_right, P_left, P_right, Q,
+                    cv::CALIB_ZERO_DISPARITY, fisheye ? -1.0 : 0.0, size);
+  useRectification(
+      {pair.source, toInfo(pair.left, size, R_left, P_left), toInfo(pair.right, size, R_right, P_right)},
+      sequence);
+}
+
+void useRectification(const RectifyingPair& pair, Sequence& sequence) {
+  checkModel(pair.source, pair.left);
+  checkModel(pair.source, pair.right);
+  sensor_msgs::CameraInfo left = pair.left;
+  sensor_msgs::CameraInfo right = pair.right;
+  try {
+    left.header.frame_id = right.header.frame_id = "";
+    ros_io::toCalibration(left, right);
+  } catch (const std::exception& error) {
+    throw InputError(pair.source + ": " + error.what());
+  }
+  sequence.left.info = left;
+  sequence.right.info = right;
+  if (isRectified(left) && isRectified(right)) return;
+  if (isRectifiedDownstream(left) && isRectifiedDownstream(right)) return;
+  sequence.notes.push_back(pair.source +
+                           ": image_proc does not rectify with such a calibration; the images are " +
+                           "rectified while they are imported");
+  for (CameraTrack* track : {&sequence.left, &sequence.right}) {
+    const sensor_msgs::CameraInfo info = track->info;
+    track->frames = std::make_unique<RectifiedFrames>(std::move(track->frames), info);
+    track->info = toCameraInfo(RectifiedCamera{static_cast<int>(info.width), static_cast<int>(info.height),
+                                               info.P[0], info.P[5], info.P[2], info.P[6],
+                                               info.P[3] == 0.0 ? 0.0 : -info.P[3] / info.P[0]});
+  }
+}
+
+}  // namespace stereo_nav::tools
