@@ -3,8 +3,8 @@
 #
 #   scripts/lint.sh [--tidy [BUILD_DIR [FILE...]]]
 #
-# --tidy runs clang-tidy instead, over each source of src/ by itself (or these files); .clang-tidy lists the checks. All of
-# src/ takes minutes. BUILD_DIR (build-tidy/ unless given) is configured for it: a normal build compiles in batches.
+# --tidy runs clang-tidy instead, over all sources of src/ or over those that are compiled together with these; .clang-tidy
+# lists the checks. It needs nothing compiled: BUILD_DIR (build/ unless given) is configured, and its messages are generated.
 #
 # Prints one line a check in the Test Anything Protocol, what is wrong on standard error. A check whose tool is missing
 # is skipped. Works on the files that git tracks.
@@ -73,7 +73,7 @@ for path in sys.argv[1:]:
 )
 
 tidy_check() (
-  configure "$1" -DSTEREO_NAV_UNITY=OFF
+  configure "$1"
   cmake --build "$1" --target stereo_nav_generate_messages_cpp >"$1/generate.log" || { cat "$1/generate.log"; exit 1; }
   /usr/bin/python3 scripts/lib/tidy.py "$@"
 )
@@ -121,7 +121,7 @@ command_check() (
 
 case ${1:-} in
   --tidy)
-    check clang_tidy tidy_check "$(absolute_path "${2:-build-tidy}")" "${@:3}"
+    check clang_tidy tidy_check "$(absolute_path "${2:-build}")" "${@:3}"
     [[ $failures -eq 0 ]]
     exit
     ;;

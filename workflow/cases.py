@@ -60,7 +60,7 @@ GROUPS = {
         "two clocks, no blur": ("arena", TWO_CLOCKS + ["sensor.exposure_ms=0"], ["thesis_latest"]),
         "one clock, blur": ("arena", BLUR, ["thesis_latest"]),
     },
-    "skew": {str(skew): ("arena", PERFECT + (["timing.skew_ms=%d" % skew] if skew else []), CHOICES)
+    "skew": {str(skew): ("arena", PERFECT + (["timing.time_offset_ms=%d" % skew] if skew else []), CHOICES)
              for skew in (0, 4, 8, 12, 16)},
     "free": {"free": ("arena", PERFECT + ["timing.free_running=true", "timing.jitter_ms=1"], CHOICES)},
     "rolling": {

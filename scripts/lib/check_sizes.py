@@ -48,7 +48,8 @@ def functions(code):
             head = code[start:position]
             first = line_of_start + BEFORE_HEAD.match(head).group(0).count('\n')
             scopes.append((*scope_of(head.rstrip(), scopes), first))
-            start, line_of_start = position + 1, line
+            if scopes[-1][0] != 'initialiser':
+                start, line_of_start = position + 1, line
         elif character == '}' and depth == 0 and scopes:
             kind, name, first = scopes.pop()
             if kind == 'function':
@@ -63,11 +64,17 @@ def scope_of(head, scopes):
     """What a brace behind this text opens: (kind, name)."""
     if any(kind in ('function', 'inside') for kind, _, _ in scopes):
         return 'inside', ''
+    if scopes and scopes[-1][0] == 'initialiser':
+        return 'initialiser', ''
     head = head[BEFORE_HEAD.match(head).end():]
     head = re.sub(r'^template\s*<.*?>\s*(?=\w)', '', head, flags=re.DOTALL)
     if '(' in head and not NO_FUNCTION.match(head):
         signature = head.split('(', 1)[0]
         if '=' in signature and 'operator' not in signature:
+            lambda_name = re.search(r'(\w+)\s*=\s*\[[^\]]*\]\s*$', signature)
+            return ('function', lambda_name.group(1)) if lambda_name else ('initialiser', '')
+        # A constructor's list: a member with braces follows a comma or the colon, the body follows a value.
+        if re.search(r'\)\s*(?:noexcept\s*)?:(?!:).*[\s,][\w<>:]+$', head, re.DOTALL):
             return 'initialiser', ''
         name = re.search(r'(?:\w+(?:<[^<>]*>)?::)*(?:operator\s*\S+|~?\w+)\s*$', signature)
         return 'function', name.group(0).strip() if name else signature
@@ -88,11 +95,11 @@ def check(paths):
                 yield (f'{path}:{first}: {name}() has {last - first + 1} lines, at most {MAX_FUNCTION_LINES}: give its '
                        'steps names of their own')
             if path.suffix == '.cpp' and '::' in name:
-                files_of_class[path.parent, name.rsplit('::', 1)[0]].add(path.name)
-    for (folder, name), files in sorted(files_of_class.items()):
+                files_of_class[name.rsplit('::', 1)[0]].add(str(path))
+    for name, files in sorted(files_of_class.items()):
         if len(files) > 1:
-            yield (f'{folder}: the member functions of {name} are in {", ".join(sorted(files))}: a class that needs several '
-                   'files has several jobs')
+            yield (f'the member functions of {name} are in {", ".join(sorted(files))}: a class that needs several files has '
+                   'several jobs; two classes need two names')
 
 
 def main(arguments):

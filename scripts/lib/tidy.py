@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""tidy.py [BUILD_DIR [FILE...]]: clang-tidy over the sources of src/ (or these of them) as BUILD_DIR
-(build/ unless given) compiles them.
+"""tidy.py [BUILD_DIR [FILE...]]: clang-tidy over the sources of src/ (or those that are compiled together with these) as
+BUILD_DIR (build/ unless given) compiles them: in batches, since most of the time goes into the headers.
 
 Runs one process a core. Prints what clang-tidy finds, each finding once, and exits with status 1 where there is one, with
 77 where clang-tidy 14 is not installed.
@@ -17,14 +17,20 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def sources(build_dir):
-    """The files below src/ that the build compiles, those that take longest first."""
+def units(build_dir):
+    """What the build compiles of src/: (file that the compiler is given, sources in it), those that take longest first."""
     database = build_dir / 'compile_commands.json'
     if not database.exists():
         sys.exit(f'{database} is missing: build first (scripts/build.sh {build_dir})')
-    files = {Path(entry['file']).resolve() for entry in json.loads(database.read_text())}
-    files = [path for path in files if ROOT / 'src' in path.parents and path.exists()]
-    return sorted(files, key=lambda path: ('<ros/' not in path.read_text(), path))
+    found = []
+    for entry in json.loads(database.read_text()):
+        path = Path(entry['file']).resolve()
+        # A batch of sources is a generated file that includes them.
+        batch = re.findall(r'^#include "(.*)"$', path.read_text(), re.MULTILINE) if 'Unity' in path.parts else [path]
+        sources = [source for source in map(Path, batch) if ROOT / 'src' in source.parents]
+        if sources:
+            found.append((path, sources))
+    return sorted(found, key=lambda unit: ('<ros/' not in ''.join(map(Path.read_text, unit[1])), -len(unit[1])))
 
 
 def findings(tool, build_dir, path):
@@ -45,7 +51,7 @@ def main(arguments):
         print('clang-tidy-14 is not installed')
         return 77
     wanted = {Path(argument).resolve() for argument in arguments[1:]}
-    paths = [path for path in sources(build_dir) if not wanted or path in wanted]
+    paths = [path for path, sources in units(build_dir) if not wanted or wanted.intersection(sources)]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         results = pool.map(lambda path: findings(tool, build_dir, path), paths)
         found = sorted({finding for result in results for finding in result})

@@ -123,7 +123,8 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
   summary.input = input.input;
   summary.config = input.config;
   summary.frames = input.frames.size();
-  summary.path_length_m = pathLength(moved(Eigen::Isometry3d::Identity(), T_odom_base, input.T_base_camera));
+  summary.path_length_m =
+      pathLength(positions(moved(Eigen::Isometry3d::Identity(), T_odom_base, input.T_base_camera)));
   double features = 0.0;
   double inliers = 0.0;
   for (std::size_t i = 0; i < input.frames.size(); ++i) {

@@ -129,7 +129,7 @@ Figure errorsOverTime(const Evaluation& evaluation) {
   return {
       "error",
       "Error over time. Position: of the left camera, after SE(3) alignment without scale (what the absolute "
-      "error sums up). Rotation: first poses laid together, so drift grows from zero.",
+      "error sums up). Rotation: with the first poses aligned, so that drift grows from zero.",
       header("error", 440) + dataBlock("errors", evaluation.frames, errors) + timeAxis(evaluation) +
           "unset xlabel\nset multiplot layout 2,1\nset yrange [0:*]\nset lmargin 10\nunset key\n"
           "set ylabel 'position [m]'\nplot $errors using 1:2 with lines ls 1\n"

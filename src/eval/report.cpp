@@ -89,16 +89,19 @@ std::string accuracyTable(const EvaluationSummary& s) {
   return "<h2>Accuracy</h2>\n<table>\n" +
          row("relative translation", number(s.rpe_translation_percent, 3, "%"),
              "mean over all frames and the lengths " + lengthsText(s.segment_lengths_m)) +
-         row("relative rotation", number(s.rpe_rotation_deg_per_m, 4, "\u00b0/m"), "likewise") +
+         row("relative rotation", number(s.rpe_rotation_deg_per_m, 4, "\u00b0/m"),
+             "mean over the same pieces") +
          row("absolute (ATE)", number(s.ate_rmse_m, 4, "m"),
              "RMSE of the left camera's positions after SE(3) alignment without scale") +
-         row("at the end", number(s.end_error_percent, 3, "%"), "of the path, first poses laid together") +
+         row("at the end", number(s.end_error_percent, 3, "%"),
+             "of the path length, with the first poses aligned") +
          row("RMSE along x, y", number(s.rmse_x_m, 3, "m") + ", " + number(s.rmse_y_m, 3, "m"),
-             "base_link along the axes of odom, first poses laid together") +
-         row("MAE along x, y", number(s.mae_x_m, 3, "m") + ", " + number(s.mae_y_m, 3, "m"), "likewise") +
+             "base_link along the axes of odom, with the first poses aligned") +
+         row("MAE along x, y", number(s.mae_x_m, 3, "m") + ", " + number(s.mae_y_m, 3, "m"),
+             "of the same errors") +
          row("frames with ground truth",
              std::to_string(s.frames_with_ground_truth) + " / " + std::to_string(s.frames),
-             "those the errors are taken over; a lost frame keeps its pose and counts") +
+             "frames used for the errors; a lost frame keeps its pose and is included") +
          "</table>\n";
 }
 
@@ -110,13 +113,12 @@ std::string timingTable(const TimingSummary& timing) {
                      row("frame, 99 %", number(timing.p99_ms, 2, "ms")) +
                      row("frame, longest", number(timing.max_ms, 2, "ms"));
   for (const auto& [stage, ms] : timing.stage_medians_ms) {
-    text += row("stage: " + htmlEscaped(stage), number(ms, 2, "ms"), "median");
+    text += row("stage: " + htmlEscaped(stage), number(ms, 2, "ms"),
+                stage == "start" ? "once, at the start of a map" : "median");
   }
-  const bool has_disparity = std::isfinite(timing.disparity_median_ms);
-  return text +
-         row("disparity map", number(timing.disparity_median_ms, 2, "ms"),
-             has_disparity ? "median, beside the frame" : "none was computed") +
-         "</table>\n";
+  if (std::isfinite(timing.disparity_median_ms))
+    text += row("disparity map", number(timing.disparity_median_ms, 2, "ms"), "median, beside the frame");
+  return text + "</table>\n";
 }
 
 std::string lossTable(const std::vector<Loss>& losses) {

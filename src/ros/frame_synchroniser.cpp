@@ -10,7 +10,7 @@ void FrameSynchroniserParams::describe(ParameterVisitor& visitor) {
   visitor.integer(
       "queue_size", queue_size, {2, 1000}, "frames",
       "left images that wait for the rest of their frame; when there are more, the oldest is dropped");
-  visitor.real("max_skew_s", max_skew_s, {0.0, 0.45}, "s",
+  visitor.real("max_time_offset_s", max_time_offset_s, {0.0, 0.45}, "s",
                "without camera/sync: a right image further from the left stamp is no partner");
   visitor.real(
       "rolling_shutter_ms", rolling_shutter_ms, {0.0, 200.0}, "ms",
@@ -93,19 +93,19 @@ FrameSynchroniser::Match FrameSynchroniser::matchRight(const ros::Time& left_sta
 FrameSynchroniser::Match FrameSynchroniser::matchNearestRight(const ros::Time& left_stamp,
                                                               FrameMessages& frame) const {
   const decltype(rights_)::Item* nearest = nullptr;
-  double nearest_skew_s = kClockJump_s;  // stamps further apart are from before and after a clock's jump
+  double nearest_offset_s = kClockJump_s;  // stamps further apart are from before and after a clock's jump
   bool later_seen = false;
   for (const auto& item : rights_.items()) {
-    const double skew_s = (item.stamp - left_stamp).toSec();
-    later_seen = later_seen || (skew_s >= 0.0 && skew_s < kClockJump_s);
-    if (std::abs(skew_s) >= nearest_skew_s) continue;
+    const double offset_s = (item.stamp - left_stamp).toSec();
+    later_seen = later_seen || (offset_s >= 0.0 && offset_s < kClockJump_s);
+    if (std::abs(offset_s) >= nearest_offset_s) continue;
     nearest = &item;
-    nearest_skew_s = std::abs(skew_s);
+    nearest_offset_s = std::abs(offset_s);
   }
   if (nearest == nullptr) return Match::kWaiting;
-  const bool none_nearer_to_come = later_seen || nearest_skew_s < 0.5 * right_period_s_;
+  const bool none_nearer_to_come = later_seen || nearest_offset_s < 0.5 * right_period_s_;
   if (!none_nearer_to_come) return Match::kWaiting;
-  if (nearest_skew_s > params_.max_skew_s) return later_seen ? Match::kHopeless : Match::kWaiting;
+  if (nearest_offset_s > params_.max_time_offset_s) return later_seen ? Match::kHopeless : Match::kWaiting;
   frame.right = nearest->message;
   frame.right_stamp = nearest->stamp;
   return Match::kFound;

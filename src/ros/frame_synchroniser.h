@@ -30,7 +30,7 @@ struct FrameMessages {
 
 struct FrameSynchroniserParams {
   int queue_size = 10;
-  double max_skew_s = 0.06;
+  double max_time_offset_s = 0.06;
   double rolling_shutter_ms = 0.0;
   odometry::DisparityUse disparity =
       odometry::DisparityUse::kMatched;  ///< not a parameter: follows from the odometry's configuration

@@ -74,9 +74,10 @@ std::string InputMonitor::unsynchronised(double now_s) const {
         << ". Stamps this far apart come from different clocks or recordings: run all drivers on one host's "
            "clock (chrony between hosts), and do not mix a bag with live topics";
   } else {
-    message << ". The disparity must carry the left image's exact stamp (disparity nodelet without "
-               "approximate_sync) and a right image must lie within synchronisation/max_skew_s of it: use "
-               "stereo_capture, which stamps a pair alike, or raise max_skew_s for free-running cameras";
+    message
+        << ". The disparity must carry the left image's exact stamp (disparity nodelet without "
+           "approximate_sync) and a right image must lie within synchronisation/max_time_offset_s of it: use "
+           "stereo_capture, which stamps a pair alike, or raise max_time_offset_s for free-running cameras";
   }
   return message.str();
 }

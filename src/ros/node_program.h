@@ -2,15 +2,29 @@
 
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <exception>
+#include <iostream>
+#include <string>
 
 #include "ros/master_watch.h"
 
 namespace stereo_nav::ros_io {
 
+inline bool asksForHelp(int argc, char** argv) {
+  return std::any_of(argv + 1, argv + argc,
+                     [](const std::string& argument) { return argument == "-h" || argument == "--help"; });
+}
+
 /// The main() of every node. `run` works until ROS shuts down and returns the exit status. An exception is
 /// logged as fatal and gives status 2; the loss of the master gives status 3.
 inline int runNode(int argc, char** argv, const char* name, int (*run)()) {
+  if (asksForHelp(argc, argv)) {
+    std::cout << "usage: rosrun stereo_nav " << name << " [TOPIC:=OTHER] [_PARAMETER:=VALUE]\n"
+              << "A ROS node; the README says where its topics are described, docs/parameters.md lists its "
+                 "parameters.\n";
+    return 0;
+  }
   ros::init(argc, argv, name);
   // ROS shuts down with the last handle, and after that the error could not be logged.
   const ros::NodeHandle keeps_ros_running;

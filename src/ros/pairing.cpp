@@ -50,25 +50,25 @@ double medianPeriod_s(const std::vector<ros::Time>& stamps) {
 struct Candidate {
   std::size_t left;
   std::size_t right;
-  double skew_s;
+  double offset_s;
 };
 
 std::vector<StampPair> pairByNearest(const std::vector<ros::Time>& left,
                                      const std::vector<ros::Time>& right) {
-  // Stamps are whole nanoseconds: one more lets a skew of exactly half a period pair.
-  const double max_skew_s = 0.5 * medianPeriod_s(left) + 1e-9;
+  // Stamps are whole nanoseconds: one more lets a time offset of exactly half a period pair.
+  const double max_time_offset_s = 0.5 * medianPeriod_s(left) + 1e-9;
   std::vector<Candidate> candidates;
   for (std::size_t l = 0; l < left.size(); ++l) {
     const auto after = std::lower_bound(right.begin(), right.end(), left[l]);
     const auto r = static_cast<std::size_t>(after - right.begin());
     for (const std::size_t neighbour : {r, r - 1}) {
       if (neighbour >= right.size()) continue;  // also true of r - 1 where r = 0
-      const double skew_s = std::abs((right[neighbour] - left[l]).toSec());
-      if (skew_s <= max_skew_s) candidates.push_back({l, neighbour, skew_s});
+      const double offset_s = std::abs((right[neighbour] - left[l]).toSec());
+      if (offset_s <= max_time_offset_s) candidates.push_back({l, neighbour, offset_s});
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.skew_s < b.skew_s; });
+                   [](const Candidate& a, const Candidate& b) { return a.offset_s < b.offset_s; });
   std::vector<StampPair> pairs;
   std::vector<bool> left_used(left.size(), false);
   std::vector<bool> right_used(right.size(), false);

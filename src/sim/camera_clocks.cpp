@@ -32,7 +32,7 @@ std::vector<PairInstants> pairInstants(const TimingParams& timing, double durati
   const double right_period_s = timing.free_running ? period_s * (1.0 + 1e-6 * timing.clock_ppm) : period_s;
   const double phase =
       timing.free_running ? uniformDraw(streamKey(seed, Stream::kClock, kPhase), 0) - 0.5 : 0.0;
-  const double right_start_s = 1e-3 * timing.skew_ms + phase * period_s;
+  const double right_start_s = 1e-3 * timing.time_offset_ms + phase * period_s;
 
   std::vector<double> left_s, right_s;
   const auto images = static_cast<std::uint64_t>(std::floor(duration_s * timing.rate_hz)) + 1;
@@ -59,7 +59,7 @@ std::vector<PairInstants> pairInstants(const TimingParams& timing, double durati
 
 void TimingParams::describe(ParameterVisitor& visitor) {
   visitor.real("rate_hz", rate_hz, {0.1, 1000.0}, "Hz", "images per second of each camera");
-  visitor.real("skew_ms", skew_ms, {-500.0, 500.0}, "ms",
+  visitor.real("time_offset_ms", time_offset_ms, {-500.0, 500.0}, "ms",
                "the right image is taken this much after the left");
   visitor.real("jitter_ms", jitter_ms, {0.0, 100.0}, "ms", "standard deviation of each image's instant");
   visitor.flag("free_running", free_running,

@@ -10,7 +10,7 @@ namespace stereo_nav::sim {
 /// The times at which the two cameras take their images. The left camera's clock is the reference.
 struct TimingParams {
   double rate_hz = 30.0;
-  double skew_ms = 0.0;
+  double time_offset_ms = 0.0;
   double jitter_ms = 0.0;
   bool free_running = false;
   double clock_ppm = 200.0;

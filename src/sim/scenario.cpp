@@ -29,7 +29,7 @@ std::vector<Item> readList(const YAML::Node& file, const char* key, const std::s
 void applyOverride(YAML::Node root, const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw ParameterError("'" + text + "' is no setting; it must look like timing.skew_ms=4");
+    throw ParameterError("'" + text + "' is no setting; it must look like timing.time_offset_ms=4");
   }
   std::string path = text.substr(0, equals);
   YAML::Node node;

@@ -81,7 +81,7 @@ std::optional<StereoMatch> SparseStereoMatcher::search(const ImagePyramid& left,
   const auto patch = Patch::cut(left.level(level), toCv(left_px) * scale, params_.search_window_px, 0.0);
   if (!patch) return std::nullopt;
   const cv::Mat& image = right.level(level);
-  // Fast rigs with much skew make it large: no more rows than there are.
+  // Fast rigs whose cameras are far apart in time make it large: no more rows than there are.
   const auto row_tolerance =
       static_cast<int>(std::min<double>(image.rows, tolerance_px / static_cast<double>(1 << level)));
   const int steps = static_cast<int>(params_.max_disparity_share * image.cols);

@@ -62,7 +62,7 @@ void pairOfMjpg(benchmark::State& state) {
   const auto encoding = state.range(0) == 0 ? Encoding::kBgr8 : Encoding::kMono8;
   const std::vector<Jpeg> left = readFrames("robotL.mp4"), right = readFrames("robotR.mp4");
   constexpr std::int64_t kPeriod_ns = 33'333'333;
-  Pairer pairer(kPeriod_ns, kPeriod_ns / 2);
+  LeftRightPairer pairer(kPeriod_ns, kPeriod_ns / 2);
   std::int64_t time_ns = 0;
   std::size_t index = 0, bytes = 0;
   for (auto _ : state) {
@@ -92,12 +92,12 @@ double median_ms(std::vector<std::int64_t> values_ns) {
   return 1e-6 * static_cast<double>(upperMedian(values_ns));
 }
 
-/// Two webcams at 30 Hz that are played by the test's system calls, the right one `skew_ms` later.
+/// Two webcams at 30 Hz that are played by the test's system calls, the right one `time_offset_ms` later.
 class PlayedCameras {
  public:
-  explicit PlayedCameras(std::int64_t skew_ms) {
+  explicit PlayedCameras(std::int64_t time_offset_ms) {
     plugIn(0, "usb-fake-1", left_jpeg_, 0);
-    plugIn(1, "usb-fake-2", right_jpeg_, skew_ms * 1'000'000);
+    plugIn(1, "usb-fake-2", right_jpeg_, time_offset_ms * 1'000'000);
     config_.left = {
         "left", kernel_.path(0), {PixelFormat::kMjpg, kWidth, kHeight, 30.0}, Encoding::kBgr8, {}, 4, 1.0};
     config_.right = config_.left;
@@ -192,7 +192,7 @@ BENCHMARK(captureAt30Hz)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
-BENCHMARK(handOver)->ArgName("skew_ms")->Arg(0)->Arg(8)->Iterations(35)->UseRealTime();
+BENCHMARK(handOver)->ArgName("time_offset_ms")->Arg(0)->Arg(8)->Iterations(35)->UseRealTime();
 BENCHMARK(pairOfMjpg)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -89,9 +89,10 @@ TEST(CaptureLaunch, EveryTopicAndParameterIsUnderTheNamespace) {
   EXPECT_TRUE(ros::param::get("/rig/stereo_capture_disparity/disparity_range", range))
       << "config/disparity.yaml";
   EXPECT_GT(range, 0);
-  double max_skew_s = 0.0;
-  EXPECT_TRUE(ros::param::get("/rig/stereo_capture/max_skew_s", max_skew_s)) << "config/capture.yaml";
-  EXPECT_EQ(max_skew_s, 0.0167);
+  double max_time_offset_s = 0.0;
+  EXPECT_TRUE(ros::param::get("/rig/stereo_capture/max_time_offset_s", max_time_offset_s))
+      << "config/capture.yaml";
+  EXPECT_EQ(max_time_offset_s, 0.0167);
 }
 
 TEST(CaptureLaunch, ACalibrationOfTheWrongSizeAndAMissingOneAreNamed) {

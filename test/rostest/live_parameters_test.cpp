@@ -125,11 +125,11 @@ TEST(LiveParameter, WhatIsNoNumberIsRefusedAndChangesNothing) {
 
 TEST(LiveParameter, WhatIsNotLiveStaysAndTheRestIsTaken) {
   const Node<ros_io::StereoCaptureParams> node("/mixed");
-  const auto response = reconfigure("/mixed", {{"gain", 5}, {"width", 1280}, {"max_skew_s", 1}});
+  const auto response = reconfigure("/mixed", {{"gain", 5}, {"width", 1280}, {"max_time_offset_s", 1}});
   ASSERT_TRUE(response);
   EXPECT_EQ(response->count("width"), 0u);
   EXPECT_EQ(node.received.capture.width, 640);
-  EXPECT_EQ(node.received.capture.max_skew_s, 0.02) << "a whole number is of another type";
+  EXPECT_EQ(node.received.capture.max_time_offset_s, 0.02) << "a whole number is of another type";
   EXPECT_EQ(node.received.capture.gain, 5);
 }
 

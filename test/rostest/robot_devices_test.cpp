@@ -41,7 +41,7 @@ TEST(RobotDevices, TheRigFileGoesBeforeTheConfiguration) {
   };
   EXPECT_TRUE(become("/stereo_capture/width", 320)) << "rig";
   EXPECT_TRUE(become("/stereo_capture/rate_hz", 15.0)) << "rig";
-  EXPECT_TRUE(become("/stereo_capture/max_skew_s", 0.0167)) << "config/capture.yaml";
+  EXPECT_TRUE(become("/stereo_capture/max_time_offset_s", 0.0167)) << "config/capture.yaml";
   EXPECT_TRUE(become("/stereo_capture/buffers", 4)) << "default";
   EXPECT_TRUE(become("/imu_bridge/yaw_stddev_rad", 0.07)) << "rig, not the default of dynamic_reconfigure";
   EXPECT_TRUE(become("/stereo_capture_disparity/disparity_range", 96)) << "rig";

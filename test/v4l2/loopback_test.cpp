@@ -50,7 +50,7 @@ class Loopback : public testing::Test {
     config.right = config.left;
     config.right.name = "right";
     config.right.device = kRight;
-    config.max_skew_s = 0.048;
+    config.max_time_offset_s = 0.048;
     rig_ = std::make_unique<StereoRig>(camera::linuxKernel(), DeviceFinder(camera::linuxKernel()));
     rig_->start(config);
   }

@@ -59,7 +59,7 @@ inline void setCameras(const std::string& left, const std::string& right, int wi
   ros::param::set(kNode + "/width", width);
   ros::param::set(kNode + "/height", height);
   ros::param::set(kNode + "/rate_hz", rate_hz);
-  ros::param::set(kNode + "/max_skew_s", 0.4 / rate_hz);
+  ros::param::set(kNode + "/max_time_offset_s", 0.4 / rate_hz);
   ros::param::set(kNode + "/stall_timeout_s", 10.0);
 }
 

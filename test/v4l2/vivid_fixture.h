@@ -34,7 +34,7 @@ inline StereoConfig configOf(int width, int height) {
   config.right = config.left;
   config.right.name = "right";
   config.right.device = kRight;
-  config.max_skew_s = 0.034;
+  config.max_time_offset_s = 0.034;
   return config;
 }
 

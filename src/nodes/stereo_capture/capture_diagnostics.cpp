@@ -76,11 +76,11 @@ void CaptureDiagnostics::describePairs(Status& status) {
   if (stereo.pair_rate_hz == 0.0) {
     status.summary(
         DiagnosticStatus::ERROR,
-        "No pairs: look at the status of the cameras; if both deliver images, max_skew_s is too small");
+        "No pairs: look at the status of the cameras; if both deliver images, max_time_offset_s is too small");
   } else if (stereo.pair_rate_hz < kSlow * std::min(stereo.left.rate_hz, stereo.right.rate_hz)) {
     status.summary(
         DiagnosticStatus::WARN,
-        "Many images have no partner: raise max_skew_s to half the time between images, and see that both "
+        "Many images have no partner: raise max_time_offset_s to half the time between images, and see that both "
         "cameras run at the same rate");
   }
   status.addf("Rate (Hz)", "%.2f", stereo.pair_rate_hz);
@@ -89,10 +89,10 @@ void CaptureDiagnostics::describePairs(Status& status) {
   status.add("Right images without partner", alone[1]);
   status.add("Images out of order", stereo.pairing.out_of_order[0] + stereo.pairing.out_of_order[1]);
   status.add("Pairs overtaken by newer ones", stereo.delivered_late);
-  status.addf("Skew, right - left (ms)", "%.3f", 1e3 * stereo.time_offset_s);
-  status.addf("Largest skew allowed (ms)", "%.3f", 1e3 * stereo.max_skew_s);
+  status.addf("Time offset, right - left (ms)", "%.3f", 1e3 * stereo.time_offset_s);
+  status.addf("Largest time offset allowed (ms)", "%.3f", 1e3 * stereo.max_time_offset_s);
   if (std::isfinite(stereo.time_offset_rate)) {
-    status.addf("Clock beat, change of skew (ms/s)", "%.4f", 1e3 * stereo.time_offset_rate);
+    status.addf("Clock beat, change of the time offset (ms/s)", "%.4f", 1e3 * stereo.time_offset_rate);
   }
   status.addf("Latency, dequeued to published (ms)", "%.2f", 1e3 * stereo.latency_s);
 }

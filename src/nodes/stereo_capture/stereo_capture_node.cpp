@@ -130,7 +130,7 @@ void StereoCaptureNode::followSystemClock() {
 }
 
 void StereoCaptureNode::applyLive(const camera::CaptureParams& params) {
-  camera_->setMaxTimeOffset(params.max_skew_s);
+  camera_->setMaxTimeOffset(params.max_time_offset_s);
   for (const auto& setting : camera::exposureControls(params.exposure_ms, params.gain)) {
     camera_->left().setControl(setting.name, setting.value);
     if (!params_.match_exposure) camera_->right().setControl(setting.name, setting.value);

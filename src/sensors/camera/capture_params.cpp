@@ -24,7 +24,7 @@ void CaptureParams::describe(ParameterVisitor& visitor) {
   visitor.real("stall_timeout_s", stall_timeout_s, {0.1, 60.0}, "s",
                "a camera that sends nothing for so long is opened again");
   visitor.real(
-      "max_skew_s", max_skew_s, {0.0, 1.0}, "s",
+      "max_time_offset_s", max_time_offset_s, {0.0, 1.0}, "s",
       "left and right images further apart in time are not paired; half the frame period loses no image",
       Change::kLive);
   visitEnum(visitor, "stamps", stamps, {{"common", Stamps::kCommon}, {"true", Stamps::kTrue}},
@@ -49,7 +49,7 @@ StereoConfig CaptureParams::toConfig() const {
   config.left.rolling_shutter_s = 1e-3 * rolling_shutter_ms;
   config.right = config.left;
   config.right.name = "right";
-  config.max_skew_s = max_skew_s;
+  config.max_time_offset_s = max_time_offset_s;
   config.match_exposure = match_exposure;
   return config;
 }

@@ -16,7 +16,7 @@ struct CaptureParams {
   Encoding encoding = Encoding::kBgr8;
   int buffers = 4;
   double stall_timeout_s = 1.0;
-  double max_skew_s = 0.02;
+  double max_time_offset_s = 0.02;
   Stamps stamps = Stamps::kCommon;
   double exposure_ms = -1.0;  ///< negative: left as it is; 0: automatic
   int gain = -1;              ///< negative: left as it is

@@ -31,10 +31,10 @@ std::int64_t FramePeriod::median_ns() const {
   return upperMedian(intervals);
 }
 
-Pairer::Pairer(std::int64_t nominal_period_ns, std::int64_t max_time_offset_ns)
+LeftRightPairer::LeftRightPairer(std::int64_t nominal_period_ns, std::int64_t max_time_offset_ns)
     : max_time_offset_ns_(max_time_offset_ns), lanes_{Lane(nominal_period_ns), Lane(nominal_period_ns)} {}
 
-std::optional<FramePair> Pairer::push(Side side, Frame frame) {
+std::optional<FramePair> LeftRightPairer::push(Side side, Frame frame) {
   Lane& own = lane(side);
   if (own.latest_ns) {
     if (frame.time_ns <= *own.latest_ns) {
@@ -62,7 +62,7 @@ std::optional<FramePair> Pairer::push(Side side, Frame frame) {
   return std::nullopt;
 }
 
-Pairer::Verdict Pairer::judge(const Lane& earlier, const Lane& later) const {
+LeftRightPairer::Verdict LeftRightPairer::judge(const Lane& earlier, const Lane& later) const {
   const std::int64_t early = earlier.frames.front().time_ns;
   const std::int64_t late = later.frames.front().time_ns;
   const std::int64_t offset = late - early;
@@ -77,18 +77,18 @@ Pairer::Verdict Pairer::judge(const Lane& earlier, const Lane& later) const {
   return next_cannot_be_nearer || next_is_overdue ? Verdict::kPair : Verdict::kWait;
 }
 
-void Pairer::restart(Side side) {
+void LeftRightPairer::restart(Side side) {
   Lane& own = lane(side);
   while (!own.frames.empty()) dropOldest(side);
   own.latest_ns.reset();
 }
 
-void Pairer::dropOldest(Side side) {
+void LeftRightPairer::dropOldest(Side side) {
   lane(side).frames.pop_front();
   ++counts_.without_partner[static_cast<std::size_t>(side)];
 }
 
-FramePair Pairer::takePair() {
+FramePair LeftRightPairer::takePair() {
   FramePair pair{std::move(lane(Side::kLeft).frames.front()), std::move(lane(Side::kRight).frames.front())};
   lane(Side::kLeft).frames.pop_front();
   lane(Side::kRight).frames.pop_front();

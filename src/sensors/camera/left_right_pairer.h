@@ -42,9 +42,9 @@ class FramePeriod {
 /// With frames a period T apart, no later frame can be nearer than one at most T/2 away: such a pair is
 /// released at once, when its later image arrives. Between T/2 and max_time_offset the decision waits for the
 /// next frame of the earlier camera, at most until the later camera's next frame has come.
-class Pairer {
+class LeftRightPairer {
  public:
-  Pairer(std::int64_t nominal_period_ns, std::int64_t max_time_offset_ns);
+  LeftRightPairer(std::int64_t nominal_period_ns, std::int64_t max_time_offset_ns);
 
   /// Takes a frame of one camera and returns the pair that it completes, if any. Frames of one camera must
   /// come in order of time; a frame that does not is dropped and counted.

@@ -22,7 +22,7 @@ StereoCamera::StereoCamera(const StereoConfig& config, Kernel& kernel, const Dev
       match_exposure_(config.match_exposure),
       on_pair_(std::move(on_pair)),
       log_(log),
-      pairer_(nanoseconds(1.0 / config.left.format.rate_hz), nanoseconds(config.max_skew_s)),
+      pairer_(nanoseconds(1.0 / config.left.format.rate_hz), nanoseconds(config.max_time_offset_s)),
       left_(
           config.left, kernel, finder, [this](Frame frame) { take(Side::kLeft, std::move(frame)); },
           [this] { cameraStarted(Side::kLeft); }, log),
@@ -44,9 +44,9 @@ void StereoCamera::stop() {
   right_.stop();
 }
 
-void StereoCamera::setMaxTimeOffset(double max_skew_s) {
+void StereoCamera::setMaxTimeOffset(double max_time_offset_s) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  pairer_.setMaxTimeOffset(nanoseconds(max_skew_s));
+  pairer_.setMaxTimeOffset(nanoseconds(max_time_offset_s));
 }
 
 void StereoCamera::cameraStarted(Side side) {
@@ -116,7 +116,7 @@ StereoStatus StereoCamera::status() const {
   status.pairing = pairer_.counts();
   status.delivered_late = delivered_late_;
   status.pair_rate_hz = pair_rate_.rate_hz(kernel_.monotonicNow());
-  status.max_skew_s = 1e-9 * static_cast<double>(pairer_.maxTimeOffset_ns());
+  status.max_time_offset_s = 1e-9 * static_cast<double>(pairer_.maxTimeOffset_ns());
   status.time_offset_s = time_offset_s_;
   status.time_offset_rate = beat_.timeOffsetRate();
   status.latency_s = latency_s_;

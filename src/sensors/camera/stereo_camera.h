@@ -11,12 +11,12 @@
 
 namespace stereo_nav::camera {
 
-/// What the two cameras are asked for, and how their frames are paired (`max_skew_s`: largest time between
-/// the frames of a pair).
+/// What the two cameras are asked for, and how their frames are paired (`max_time_offset_s`: largest time
+/// between the frames of a pair).
 struct StereoConfig {
   CameraConfig left;
   CameraConfig right;
-  double max_skew_s = 0.02;
+  double max_time_offset_s = 0.02;
   bool match_exposure = false;  ///< the right camera follows the left one's exposure and gain
 };
 
@@ -34,10 +34,10 @@ struct StereoStatus {
   PairerCounts pairing;
   std::uint64_t delivered_late = 0;  ///< pairs overtaken by newer ones while the receiver was busy
   double pair_rate_hz = 0.0;
-  double max_skew_s = 0.0;        ///< as it is set now
-  double time_offset_s = 0.0;     ///< of the latest pair
-  double time_offset_rate = 0.0;  ///< s/s; NaN until known
-  double latency_s = 0.0;         ///< of the latest pair, from dequeuing its later image to handing it on
+  double max_time_offset_s = 0.0;  ///< as it is set now
+  double time_offset_s = 0.0;      ///< of the latest pair
+  double time_offset_rate = 0.0;   ///< s/s; NaN until known
+  double latency_s = 0.0;          ///< of the latest pair, from dequeuing its later image to handing it on
 };
 
 /// Two cameras, each with a thread that captures and decodes. The thread whose image completes a pair hands
@@ -59,7 +59,7 @@ class StereoCamera {
   StereoStatus status() const;
   CameraWorker& left() { return left_; }
   CameraWorker& right() { return right_; }
-  void setMaxTimeOffset(double max_skew_s);
+  void setMaxTimeOffset(double max_time_offset_s);
 
  private:
   static constexpr std::size_t kQueueLength = 2;
@@ -76,7 +76,7 @@ class StereoCamera {
   const Log log_;
 
   mutable std::mutex mutex_;
-  Pairer pairer_;
+  LeftRightPairer pairer_;
   ClockBeat beat_;
   FrameRate pair_rate_;
   std::deque<StereoImages> queue_;

@@ -25,9 +25,9 @@ constexpr double kSlow_rad_s = 1.5;
 constexpr double kPatience_s = 10.0;
 
 bool parse(int argc, char** argv, Options& options) {
-  po::options_description visible(
-      "usage: calibrate_imu --port PORT [options]\n"
-      "Lay the module still for the first part, then turn it slowly once about each of its three axes");
+  po::options_description visible(helpHeading(
+      "usage: calibrate_imu --port PORT [options]",
+      "Lay the module still for the first part, then turn it slowly once about each of its three axes."));
   visible.add_options()("help,h", "this text");
   options.source.protocol = "raw";
   options.source.device.baud_rate = 1000000;

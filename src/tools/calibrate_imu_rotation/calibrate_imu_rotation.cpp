@@ -30,20 +30,20 @@ struct Options {
 
 std::optional<Options> parse(int argc, char** argv) {
   Options options;
-  po::options_description visible(
-      "usage: calibrate_imu_rotation BAG --rig FILE [options]\n"
-      "Finds the rotation of the IMU against the cameras and writes it as roll_deg, pitch_deg and\n"
-      "yaw_deg of mounting/imu into the rig file; nothing else in it changes. BAG holds raw stereo\n"
-      "images, camera_info and imu/data (or imu_quat) of half a minute in which the rig is turned by some\n"
-      "30 deg to and fro about all three axes, in front of texture. Exit status: 0 written, 1 the recording\n"
-      "does not determine the rotation (nothing is written), 2 input that cannot be used.\n\nOptions");
+  po::options_description visible(helpHeading(
+      "usage: calibrate_imu_rotation BAG --rig FILE [options]",
+      "Finds the rotation of the IMU against the cameras and writes it as roll_deg, pitch_deg and yaw_deg "
+      "of mounting/imu into the rig file; nothing else in it changes. BAG holds raw stereo images, "
+      "camera_info and imu/data (or imu_quat) of half a minute in which the rig is turned by some 30 deg "
+      "to and fro about all three axes, in front of texture. Exit status: 0 written, 1 the recording does "
+      "not determine the rotation (nothing is written), 2 input that cannot be used."));
   visible.add_options()                                                                     //
       ("help,h", "this text")                                                               //
       ("rig", po::value(&options.rig), "rig file, with the mounting of camera and IMU")     //
       ("dry-run", po::bool_switch(&options.dry_run), "only say what would be written")      //
       ("start", po::value(&options.part.start_s), "seconds of the recording to skip")       //
       ("duration", po::value(&options.part.duration_s), "seconds of the recording to use")  //
-      ("max-offset", po::value(&options.params.max_offset_s)->default_value(options.params.max_offset_s),
+      ("max-offset", numberOption(options.params.max_offset_s),
        "largest error of the IMU's stamps that is searched for, s")  //
       ("config", po::value(&options.config)->default_value(options.config), "parameters of the odometry");
   po::variables_map values;

@@ -43,18 +43,18 @@ void parseSize(const std::string& size, calibration::Checkerboard& board) {
 std::optional<Options> parse(int argc, char** argv) {
   Options options;
   std::string size = "8x6";
-  po::options_description visible(
-      "usage: check_calibration [INPUT] [options]\n"
-      "Measures on views of a checkerboard how good a stereo calibration is, and where the board stands.\n\n"
-      "INPUT is a folder with left01.png, right01.png, ... (or left/01.png, right/01.png), or a bag with\n"
-      "raw images. Without INPUT it listens to camera/{left,right}/{image_raw,camera_info}.\n"
-      "Exit status: 0 good, 1 poor, 2 input that cannot be used.\n\nOptions");
+  po::options_description visible(helpHeading(
+      "usage: check_calibration [INPUT] [options]",
+      "Measures on views of a checkerboard how good a stereo calibration is, and where the board stands.  "
+      "INPUT is a folder with left01.png, right01.png, ... (or left/01.png, right/01.png), or a bag with "
+      "raw images. Without INPUT it listens to camera/{left,right}/{image_raw,camera_info}. Exit status: 0 "
+      "good, 1 poor, 2 input that cannot be used."));
   visible.add_options()        //
       ("help,h", "this text")  //
       ("calibration", po::value(&options.calibration),
        "folder with left.yaml and right.yaml; default: INPUT, or the recorded or live camera_info")  //
       ("size", po::value(&size)->default_value(size), "inner corners of the board, columns x rows")  //
-      ("square", po::value(&options.board.square_m)->default_value(options.board.square_m),
+      ("square", numberOption(options.board.square_m),
        "side of a square, m")                                                       //
       ("views", po::value(&options.views), "views to take; default: all, live 20")  //
       ("interval", po::value(&options.interval_s)->default_value(options.interval_s),

@@ -54,7 +54,7 @@ class Listener {
   /// Wider than the odometry's own limit: a pair that is badly apart is judged rather than left out.
   static ros_io::FrameSynchroniserParams pairing() {
     ros_io::FrameSynchroniserParams params;
-    params.max_skew_s = 0.5;
+    params.max_time_offset_s = 0.5;
     params.disparity = odometry::DisparityUse::kNone;
     return params;
   }

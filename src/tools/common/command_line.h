@@ -1,10 +1,34 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <boost/program_options.hpp>
 #include <iostream>
+#include <sstream>
 #include <string>
 
 namespace stereo_nav::tools {
+
+/// The heading of a program's --help: its synopsis, its description wrapped at 100 columns, and what the list
+/// of options is called.
+inline std::string helpHeading(const std::string& synopsis, const std::string& description) {
+  constexpr std::size_t kColumns = 100;
+  std::string text = synopsis + "\n", line, word;
+  std::istringstream words(description);
+  while (words >> word) {
+    if (!line.empty() && line.size() + 1 + word.size() > kColumns) {
+      text += line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return text + line + "\n\nOptions";
+}
+
+/// An option whose default is the value that the variable has, shown with as few digits as it needs.
+inline boost::program_options::typed_value<double>* numberOption(double& variable) {
+  return boost::program_options::value(&variable)->default_value(variable, fmt::format("{}", variable));
+}
 
 /// Fills `values`, and the variables that `visible`, with an option `help`, is bound to. `positional`: name
 /// under which the one argument without dashes is stored; empty where there is none. False when help was

@@ -11,13 +11,12 @@ namespace po = boost::program_options;
 
 std::optional<DepthAtOptions> parseDepthAtOptions(int argc, char** argv) {
   DepthAtOptions options;
-  po::options_description visible(
-      "usage: depth_at BAG --pixel X Y [options]\n"
-      "       depth_at --live [--pixel X Y] [options]\n"
-      "Prints the distance along the view at a pixel of the rectified left image: the median over a window, "
-      "then mean, spread and range over the frames. The disparity of a recording is computed as by the "
-      "nodelets; --live takes camera/disparity. With --live and without --pixel, a window shows "
-      "camera/left/image_rect: click into it; any key ends the program");
+  po::options_description visible(helpHeading(
+      "usage: depth_at BAG --pixel X Y [options]\n       depth_at --live [--pixel X Y] [options]",
+      "Prints the distance along the view at a pixel of the rectified left image: the median over a "
+      "window, then mean, spread and range over the frames. The disparity of a recording is computed as by "
+      "the nodelets; --live takes camera/disparity. With --live and without --pixel, a window shows "
+      "camera/left/image_rect: click into it; any key ends the program."));
   visible.add_options()                                                                           //
       ("help,h", "this text")                                                                     //
       ("live", "from the topics of a running graph")                                              //

@@ -28,9 +28,9 @@ void checkValues(const EvaluateOptions& options) {
 
 std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
   EvaluateOptions options;
-  po::options_description visible(
-      "usage: evaluate BAG [options]\n"
-      "Runs the odometry on a recording as fast as it can and measures it against ground truth");
+  po::options_description visible(helpHeading(
+      "usage: evaluate BAG [options]",
+      "Runs the odometry on a recording as fast as it can and measures it against ground truth."));
   visible.add_options()        //
       ("help,h", "this text")  //
       ("config", po::value<std::string>()->default_value("vo.yaml"),
@@ -49,7 +49,7 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("namespace", po::value<std::string>(), "rig to use, where the bag holds several, e.g. /robot_a")  //
       ("rolling-shutter-ms", po::value<double>(),
        "time from an image's first row to its last, instead of what the recording says; 0: global shutter. "
-       "The stamps are taken as those of the middle row")  //
+       "The stamps are taken as those of the middle row.")  //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;

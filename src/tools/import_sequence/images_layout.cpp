@@ -36,7 +36,8 @@ class CalibrationFile {
  private:
   static std::string expected() {
     return "expected are the lines 'fx', 'fy', 'cx', 'cy' in px and 'baseline' in m, such as 'fx 567.2', of "
-           "the rectified pair; for images that are not rectified left.yaml and right.yaml (ROS), camchain.yaml "
+           "the rectified pair; for images that are not rectified left.yaml and right.yaml (ROS), "
+           "camchain.yaml "
            "(Kalibr), or intrinsics.yml and extrinsics.yml (OpenCV) in its place";
   }
 

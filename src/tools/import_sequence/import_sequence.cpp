@@ -32,7 +32,8 @@ constexpr const char* kUsage =
     "  images  DIR/left, right with images, or two videos *L.mp4, *R.mp4 (*left, *right), rectified;\n"
     "          calib.txt with the lines fx, fy, cx, cy (px), baseline (m) and, if need be, fps;\n"
     "          pairs have equal names; stamps come from times.txt, from names that are dates, or from fps;\n"
-    "          not rectified with left.yaml and right.yaml (ROS), camchain.yaml (Kalibr), or intrinsics.yml and\n"
+    "          not rectified with left.yaml and right.yaml (ROS), camchain.yaml (Kalibr), or "
+    "intrinsics.yml and\n"
     "          extrinsics.yml (OpenCV)\n\n"
     "base_link is the IMU (the default for euroc) or the left camera with x forward, y left, z up (REP-103;\n"
     "the default for the others). The ground truth gives poses of base_link.\n\nOptions";

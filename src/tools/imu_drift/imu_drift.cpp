@@ -151,8 +151,8 @@ void reportAllan(const RestRecording& recording, const std::string& folder) {
 
 bool parse(int argc, char** argv, Options& options) {
   po::options_description visible(
-      "usage: imu_drift (--port PORT | --bag BAG) [options]\n"
-      "Measures a module that lies still: drift of each angle, noise of the rates, stamps");
+      helpHeading("usage: imu_drift (--port PORT | --bag BAG) [options]",
+                  "Measures a module that lies still: drift of each angle, noise of the rates, stamps."));
   visible.add_options()("help,h", "this text");
   options.source.addOptions(visible);
   visible.add_options()                                                                                //

@@ -8,6 +8,8 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "tools/common/command_line.h"
+
 namespace stereo_nav::tools {
 namespace {
 
@@ -77,9 +79,9 @@ po::options_description describeOptions(EmulatorOptions& o) {
   const auto triple = [](double value) {
     return po::value<Numbers>()->multitoken()->default_value({value, value, value}, "");
   };
-  po::options_description visible(
-      "usage: imu_emulator [options]\n"
-      "Behaves like a serial IMU module on a USB adapter, on a pseudo-terminal whose path it prints");
+  po::options_description visible(helpHeading(
+      "usage: imu_emulator [options]",
+      "Behaves like a serial IMU module on a USB adapter, on a pseudo-terminal whose path it prints."));
   visible.add_options()                                                                 //
       ("help,h", "this text")                                                           //
       ("protocol", po::value<std::string>()->default_value("angles"), "angles or raw")  //
@@ -90,14 +92,16 @@ po::options_description describeOptions(EmulatorOptions& o) {
       ("baud", po::value(&o.baud_rate)->default_value(o.baud_rate),
        "speed of the line; a reader that sets another one receives what it would on a wire")  //
       ("batch", po::value(&o.batch_s)->default_value(o.batch_s),
-       "the adapter hands bytes over every so many seconds")                                             //
+       "interval at which the adapter delivers bytes, s")                                                //
       ("duration", po::value(&o.duration_s)->default_value(0.0), "seconds; 0: until interrupted")        //
       ("wait-for-reader", po::bool_switch(&o.wait_for_reader), "begin when the port is opened")          //
       ("link", po::value(&o.links)->composing(), "name for the port, a symbolic link; may be repeated")  //
-      ("replug-link", po::value(&o.replug_link), "the first --link after the module was unplugged")      //
-      ("log", po::value(&o.log), "CSV file: steady time, yaw, pitch, roll of every frame sent")          //
+      ("replug-link", po::value(&o.replug_link),
+       "name that replaces the first --link after the module was plugged in again")  //
+      ("log", po::value(&o.log),
+       "CSV file: time of the steady clock, yaw, pitch, roll of every frame sent")  //
       ("motion", po::value<std::string>()->default_value("rates"),
-       "rates (see --start, --rates), sway, turns (about each axis), its (headers inside floats)")     //
+       "rates (see --start, --rates), sway, turns (about each axis), its (angles whose bytes contain the frame header)")  //
       ("start", triple(0.0), "yaw pitch roll at the start, degrees")                                   //
       ("rates", triple(0.0), "yaw pitch roll, degrees per second")                                     //
       ("trajectory", po::value<std::string>(), "follow a TUM trajectory of the IMU")                   //
@@ -107,9 +111,10 @@ po::options_description describeOptions(EmulatorOptions& o) {
       ("yaw-drift", po::value(&o.errors.yaw_drift_deg_s)->default_value(0.0),
        "degrees per second; the thesis' module: 0.00483")  //
       ("angle-noise", po::value(&o.errors.angle_noise_deg)->default_value(0.0),
-       "standard deviation, degrees")                                                                 //
-      ("angle-resolution", po::value(&o.errors.angle_resolution_deg)->default_value(0.0), "degrees")  //
-      ("gyro-bias", triple(0.0), "x y z, rad/s")                                                      //
+       "standard deviation, degrees")  //
+      ("angle-resolution", po::value(&o.errors.angle_resolution_deg)->default_value(0.0),
+       "step of the angles, degrees")             //
+      ("gyro-bias", triple(0.0), "x y z, rad/s")  //
       ("gyro-noise", po::value(&o.errors.gyro_noise_rad_s)->default_value(0.0),
        "standard deviation, rad/s")                          //
       ("accelerometer-offset", triple(0.0), "x y z, m/s^2")  //

@@ -43,19 +43,19 @@ std::string calibrationFolder(const po::variables_map& values) {
 std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
   SimulateOptions options;
   options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  po::options_description visible(
-      "usage: simulate SCENARIO --output BAG [options]\n"
-      "Drives a robot through a simulated world and records what its cameras and IMU measure, and "
-      "the ground truth. SCENARIO is a file, or the name of one in the package's config/scenarios. The same "
-      "seed gives the same bytes");
+  po::options_description visible(helpHeading(
+      "usage: simulate SCENARIO --output BAG [options]",
+      "Drives a robot through a simulated world and records what its cameras and IMU measure, and the "
+      "ground truth. SCENARIO is a file, or the name of one in the package's config/scenarios. The same "
+      "seed gives the same bytes."));
   visible.add_options()                                                           //
       ("help,h", "this text")                                                     //
       ("parameters", "lists what a scenario may hold, with ranges and defaults")  //
       ("output", po::value<std::string>(&options.output), "bag to write")         //
       ("seed", po::value<std::uint64_t>(&options.seed),
        "seed of noise, jitter and IMU errors (default 1)")  //
-      ("skew-ms", po::value<double>(),
-       "right images are taken this much later; same as --set timing.skew_ms=S")  //
+      ("time-offset-ms", po::value<double>(),
+       "right images are taken this much later; same as --set timing.time_offset_ms=S")  //
       ("set", po::value<std::vector<std::string>>(&options.overrides),
        "NAME=VALUE, changes a parameter of the scenario, e.g. imu.kind=perfect; may be repeated")  //
       ("calibration", po::value<std::string>(),
@@ -74,8 +74,9 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
   if (options.output.empty()) throw InputError("no --output BAG given; see simulate --help");
   if (options.threads < 1) throw InputError("--threads must be 1 or more");
   if (!(options.duration_s > 0.0)) throw InputError("--duration must be a number of seconds above 0");
-  if (values.count("skew-ms") != 0) {
-    options.overrides.push_back("timing.skew_ms=" + std::to_string(values["skew-ms"].as<double>()));
+  if (values.count("time-offset-ms") != 0) {
+    options.overrides.push_back("timing.time_offset_ms=" +
+                                std::to_string(values["time-offset-ms"].as<double>()));
   }
   options.scenario = ros_io::scenarioFile(values["scenario"].as<std::string>());
   options.calibration = calibrationFolder(values);

@@ -31,11 +31,11 @@ struct Options {
 
 std::optional<Options> parse(int argc, char** argv) {
   Options options;
-  po::options_description visible(
-      "usage: true_disparity SCENARIO --output BAG [options]\n"
+  po::options_description visible(helpHeading(
+      "usage: true_disparity SCENARIO --output BAG [options]",
       "Writes camera/disparity of a simulated drive as a perfect matcher would find it, for `evaluate "
-      "--disparity-from`. SCENARIO and --set are those of `simulate`; both cameras must take their images at "
-      "the same time");
+      "--disparity-from`. SCENARIO and --set are those of `simulate`; both cameras must take their images "
+      "at the same time."));
   visible.add_options()                                                                                //
       ("help,h", "this text")                                                                          //
       ("output", po::value<std::string>(&options.output), "bag to write")                              //

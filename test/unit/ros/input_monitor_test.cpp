@@ -50,7 +50,7 @@ TEST(InputMonitor, ExplainsStampsThatNeverMatch) {
   std::string text = watched.monitor.unsynchronised(4.5);
   EXPECT_TRUE(contains(text, "/camera/left/image_rect 100.000")) << text;
   EXPECT_TRUE(contains(text, "/camera/disparity 100.020 (+0.020 s)")) << text;
-  EXPECT_TRUE(contains(text, "max_skew_s")) << text;
+  EXPECT_TRUE(contains(text, "max_time_offset_s")) << text;
 
   watched.monitor.received(watched.disparity, ros::Time(7000.0), 4.0);
   text = watched.monitor.unsynchronised(4.5);

@@ -12,7 +12,6 @@ CHECK = Path(__file__).resolve().parents[3] / 'scripts' / 'lib' / 'check_floors.
 CLEAN = {
     'src/floors.txt': 'core 1\neval 2\nvision 2\nsim 3\nros 5\ntools/* 7\n# a comment\n'
                       'sim -> ros: a reason that the test needs.\n',
-    'cmake/Dependencies.cmake': 'find_package(catkin REQUIRED COMPONENTS\n  sensor_msgs roscpp)\n',
     'CMakeLists.txt': 'catkin_package(\n  LIBRARIES stereo_nav_core\n  DEPENDS OpenCV)\n',
     'include/stereo_nav/core/pose.h': '#include <Eigen/Core>\n',
     'src/core/pose.cpp': '#include "stereo_nav/core/pose.h"\n#include "core/detail.h"\n',
@@ -94,6 +93,18 @@ class FloorsTest(unittest.TestCase):
         for header in ('<ros/time.h>', '<sensor_msgs/Image.h>', '"stereo_nav/VoStatus.h"', '<stereo_nav/VoStatus.h>'):
             self.assert_only_problem(r'^src/vision/image\.h:1: vision \(floor 2\) includes .* which is of ROS',
                                      **{'src/vision/image.h': f'#include {header}\n'})
+
+    def test_a_library_of_ros_that_the_package_does_not_depend_on(self):
+        self.assert_only_problem(r'vision \(floor 2\) includes topic_tools/parse\.h, which is of ROS',
+                                 **{'src/vision/image.h': '#include <topic_tools/parse.h>\n'})
+
+    def test_libraries_that_any_floor_may_use(self):
+        self.assertEqual(self.problems(**{'src/vision/image.h': '#include <opencv2/core.hpp>\n#include <sys/stat.h>\n'
+                                          '#include <vector>\n#include <Eigen/Core>\n'}), '')
+
+    def test_a_header_of_the_package_in_angle_brackets(self):
+        self.assert_only_problem(r'^src/vision/image\.h:1: <stereo_nav/core/pose\.h> is a header of the package',
+                                 **{'src/vision/image.h': '#include <stereo_nav/core/pose.h>\n'})
 
     def test_a_link_to_ros_below_its_floor(self):
         self.assert_only_problem(

@@ -57,7 +57,7 @@ class SizesTest(unittest.TestCase):
 
     def test_functions_and_their_lines(self):
         self.assertEqual(list(check_sizes.functions(CODE)),
-                         [('get', 13, 13), ('Plain', 14, 14), ('Shape<T>::corners', 17, 26), ('Shape::Shape', 27, 29),
+                         [('kSquare', 9, 9), ('get', 13, 13), ('Plain', 14, 14), ('Shape<T>::corners', 17, 26), ('Shape::Shape', 27, 29),
                           ('Shape::~Shape', 30, 30), ('Shape::operator==', 31, 31)])
 
     def test_code_that_keeps_the_limits(self):
@@ -74,6 +74,16 @@ class SizesTest(unittest.TestCase):
         problem, = self.check(a_cpp=f'class A : public B {{\n public:\n  A() : x_(1) {{\n{body}  }}\n}};\n')
         self.assertRegex(problem, r'A\(\) has 62 lines')
 
+    def test_a_long_constructor_with_members_in_braces(self):
+        body = '  run();\n' * 60
+        problem, = self.check(a_cpp=f'A::A(int a)\n    : a_{{a}}, b_(2), c_{{b(), {{1}}}} {{\n{body}}}\n')
+        self.assertRegex(problem, r'A::A\(\) has 63 lines')
+
+    def test_a_long_lambda_outside_of_a_function(self):
+        body = '  run();\n' * 60
+        problem, = self.check(a_cpp=f'const auto kRun = [](int x) {{\n{body}}};\n')
+        self.assertRegex(problem, r'kRun\(\) has 62 lines')
+
     def test_a_long_file(self):
         self.assertEqual(self.check(a_cpp='int x;\n' * 350), [])
         problem, = self.check(a_cpp='int x;\n' * 351)
@@ -81,7 +91,7 @@ class SizesTest(unittest.TestCase):
 
     def test_a_class_in_two_files(self):
         problem, = self.check(a_cpp='void A::go() {\n}\n', b_cpp='int A::stop() {\n}\n')
-        self.assertRegex(problem, r'the member functions of A are in a\.cpp, b\.cpp')
+        self.assertRegex(problem, r'the member functions of A are in \S*a\.cpp, \S*b\.cpp')
 
 
 if __name__ == '__main__':

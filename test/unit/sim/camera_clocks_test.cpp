@@ -18,10 +18,10 @@ TEST(CameraClocks, WithoutFaultsPairsAreSimultaneousAndEven) {
 
 TEST(CameraClocks, AConstantSkewIsKeptUpToHalfAPeriod) {
   TimingParams timing;
-  timing.skew_ms = 16.0;
+  timing.time_offset_ms = 16.0;
   for (const PairInstants& pair : pairInstants(timing, 2.0, 1))
     EXPECT_NEAR(pair.right_s - pair.left_s, 0.016, 1e-12);
-  timing.skew_ms = 20.0;  // more than half a period: the right image before is nearer
+  timing.time_offset_ms = 20.0;  // more than half a period: the right image before is nearer
   for (const PairInstants& pair : pairInstants(timing, 2.0, 1)) {
     EXPECT_NEAR(pair.right_s - pair.left_s, 0.020 - 1.0 / 30.0, 1e-9);
   }

@@ -32,13 +32,13 @@ TEST(Scenario, ListsSectionsAndOverrides) {
                                                "  - {action: wait, duration_s: 3}\n"
                                                "objects:\n"
                                                "  - {shape: cylinder, x_m: 4, material: {texture: wood}}\n"
-                                               "timing: {skew_ms: 5}\n"),
-                                         {"timing.jitter_ms=2", "imu.kind=raw", "timing.skew_ms=6"});
+                                               "timing: {time_offset_ms: 5}\n"),
+                                         {"timing.jitter_ms=2", "imu.kind=raw", "timing.time_offset_ms=6"});
   ASSERT_EQ(scenario.path.size(), 2u);
   EXPECT_EQ(scenario.path[1].action, PathStep::Action::kWait);
   ASSERT_EQ(scenario.scene.objects.size(), 1u);
   EXPECT_EQ(scenario.scene.objects[0].material.texture, TextureKind::kWood);
-  EXPECT_EQ(scenario.timing.skew_ms, 6.0);
+  EXPECT_EQ(scenario.timing.time_offset_ms, 6.0);
   EXPECT_EQ(scenario.timing.jitter_ms, 2.0);
   EXPECT_EQ(scenario.imu.kind, ImuKind::kRaw);
 }

@@ -16,7 +16,7 @@ namespace {
 sim::Scenario shortScenario() {
   sim::Scenario scenario =
       sim::loadScenario(STEREO_NAV_SOURCE_DIR "/config/scenarios/arena.yaml",
-                        {"timing.skew_ms=4", "timing.jitter_ms=1", "sensor.rolling_shutter_ms=20"});
+                        {"timing.time_offset_ms=4", "timing.jitter_ms=1", "sensor.rolling_shutter_ms=20"});
   return scenario;
 }
 

@@ -61,7 +61,7 @@ TEST(StereoGeometry, SkewShiftsTheRightImageByTheMotionInBetween) {
   turn.angle_deg = 30.0;
   scenario.path = {turn};
   scenario.motion.max_yaw_rate_dps = 40.0;
-  scenario.timing.skew_ms = 10.0;
+  scenario.timing.time_offset_ms = 10.0;
   scenario.scene.objects = {wallAhead(3.0, TextureKind::kClutter)};
   const Simulation simulation(scenario, thesisRig(), 1);
   const PairInstants& pair = simulation.pairs()[10];

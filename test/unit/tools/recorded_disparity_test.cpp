@@ -55,7 +55,7 @@ TEST(RecordedDisparity, WhatIsNotThereIsEmptyOrRefused) {
   EXPECT_THROW(RecordedDisparity("/nowhere.bag"), InputError);
   const auto result =
       test::runCommand("ROS_PACKAGE_PATH=" STEREO_NAV_SOURCE_DIR " " TRUE_DISPARITY " " + kScenario +
-                       " --output " + testing::TempDir() + "skew.bag --set timing.skew_ms=5");
+                       " --output " + testing::TempDir() + "skew.bag --set timing.time_offset_ms=5");
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.output.find("at the same time"), std::string::npos) << result.output;
 }

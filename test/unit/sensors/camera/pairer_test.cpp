@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 constexpr std::int64_t kPeriod = 33 * kMillisecond;
-constexpr std::int64_t kMaxSkew = 16 * kMillisecond;
+constexpr std::int64_t kMaxTimeOffset = 16 * kMillisecond;
 
 Frame frameAt(std::int64_t time_ns, std::uint32_t sequence) {
   Frame frame;
@@ -67,7 +67,7 @@ struct Result {
   std::size_t most_waiting = 0;
 };
 
-Result run(const Stream& left, const Stream& right, int frames, std::int64_t max_skew = kMaxSkew,
+Result run(const Stream& left, const Stream& right, int frames, std::int64_t max_time_offset = kMaxTimeOffset,
            unsigned seed = 1) {
   std::mt19937 random(seed);
   std::vector<Event> events;
@@ -75,7 +75,7 @@ Result run(const Stream& left, const Stream& right, int frames, std::int64_t max
   addStream(events, Side::kRight, right, frames, random);
   std::stable_sort(events.begin(), events.end(),
                    [](const Event& a, const Event& b) { return a.arrival_ns < b.arrival_ns; });
-  Pairer pairer(kPeriod, max_skew);
+  LeftRightPairer pairer(kPeriod, max_time_offset);
   Result result;
   for (const auto& event : events) {
     auto pair = pairer.push(event.side, frameAt(event.time_ns, event.sequence));
@@ -99,10 +99,11 @@ Result run(const Stream& left, const Stream& right, int frames, std::int64_t max
   return result;
 }
 
-/// What must hold for every stream, whatever happens: order, each frame once, max_skew, bounded memory.
-void expectSound(const Result& result, std::int64_t max_skew = kMaxSkew) {
+/// What must hold for every stream, whatever happens: order, each frame once, max_time_offset, bounded
+/// memory.
+void expectSound(const Result& result, std::int64_t max_time_offset = kMaxTimeOffset) {
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    EXPECT_LE(std::abs(result.pairs[i].timeOffset_ns()), max_skew);
+    EXPECT_LE(std::abs(result.pairs[i].timeOffset_ns()), max_time_offset);
     if (i == 0) continue;
     EXPECT_GT(result.pairs[i].left.time_ns, result.pairs[i - 1].left.time_ns);
     EXPECT_GT(result.pairs[i].right.time_ns, result.pairs[i - 1].right.time_ns);
@@ -110,7 +111,7 @@ void expectSound(const Result& result, std::int64_t max_skew = kMaxSkew) {
   EXPECT_LE(result.most_waiting, 4u);
 }
 
-TEST(Pairer, PairsEveryFrameOfSteadyCameras) {
+TEST(LeftRightPairer, PairsEveryFrameOfSteadyCameras) {
   for (std::int64_t offset = -16; offset <= 16; ++offset) {
     Stream right;
     right.offset = offset * kMillisecond;
@@ -121,16 +122,16 @@ TEST(Pairer, PairsEveryFrameOfSteadyCameras) {
   }
 }
 
-TEST(Pairer, LetsAPairOutWhenItsLaterImageArrives) {
-  Pairer pairer(kPeriod, kMaxSkew);
+TEST(LeftRightPairer, LetsAPairOutWhenItsLaterImageArrives) {
+  LeftRightPairer pairer(kPeriod, kMaxTimeOffset);
   EXPECT_FALSE(pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0)));
   const auto pair = pairer.push(Side::kRight, frameAt(1010 * kMillisecond, 0));
   ASSERT_TRUE(pair);
   EXPECT_EQ(pair->timeOffset_ns(), 10 * kMillisecond);
 }
 
-TEST(Pairer, WaitsForANearerFrameWhereOneCanCome) {
-  Pairer pairer(kPeriod, 30 * kMillisecond);
+TEST(LeftRightPairer, WaitsForANearerFrameWhereOneCanCome) {
+  LeftRightPairer pairer(kPeriod, 30 * kMillisecond);
   pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0));
   EXPECT_FALSE(pairer.push(Side::kRight, frameAt(1025 * kMillisecond, 0))) << "left's next comes at 1033";
   const auto pair = pairer.push(Side::kLeft, frameAt(1033 * kMillisecond, 1));
@@ -140,8 +141,8 @@ TEST(Pairer, WaitsForANearerFrameWhereOneCanCome) {
   EXPECT_EQ(pairer.counts().without_partner[0], 1u);
 }
 
-TEST(Pairer, DoesNotWaitForAFrameThatIsOverdue) {
-  Pairer pairer(kPeriod, 30 * kMillisecond);
+TEST(LeftRightPairer, DoesNotWaitForAFrameThatIsOverdue) {
+  LeftRightPairer pairer(kPeriod, 30 * kMillisecond);
   pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0));
   EXPECT_FALSE(pairer.push(Side::kRight, frameAt(1025 * kMillisecond, 0)));
   const auto pair = pairer.push(Side::kRight, frameAt(1058 * kMillisecond, 1));
@@ -149,31 +150,31 @@ TEST(Pairer, DoesNotWaitForAFrameThatIsOverdue) {
   EXPECT_EQ(pair->timeOffset_ns(), 25 * kMillisecond);
 }
 
-TEST(Pairer, MeasuresThePeriodThroughLostFrames) {
-  Pairer pairer(10 * kMillisecond, kMaxSkew);
+TEST(LeftRightPairer, MeasuresThePeriodThroughLostFrames) {
+  LeftRightPairer pairer(10 * kMillisecond, kMaxTimeOffset);
   for (const std::uint32_t sequence : {0u, 2u, 4u, 5u, 8u, 10u}) {
     pairer.push(Side::kLeft, frameAt(1000 * kMillisecond + sequence * kPeriod, sequence));
   }
   EXPECT_EQ(pairer.period_ns(), kPeriod);
 }
 
-TEST(Pairer, MeasuresThePeriodOfADriverThatDoesNotCount) {
-  Pairer pairer(10 * kMillisecond, kMaxSkew);
+TEST(LeftRightPairer, MeasuresThePeriodOfADriverThatDoesNotCount) {
+  LeftRightPairer pairer(10 * kMillisecond, kMaxTimeOffset);
   for (int i = 0; i < 5; ++i) pairer.push(Side::kLeft, frameAt(1000 * kMillisecond + i * kPeriod, 0));
   EXPECT_EQ(pairer.period_ns(), kPeriod);
 }
 
-TEST(Pairer, ExactlyMaxSkewIsAllowedAndNotMore) {
+TEST(LeftRightPairer, ExactlyTheLargestTimeOffsetIsAllowedAndNotMore) {
   for (const std::int64_t beyond : {0, 1}) {
-    Pairer pairer(kPeriod, kMaxSkew);
+    LeftRightPairer pairer(kPeriod, kMaxTimeOffset);
     pairer.push(Side::kRight, frameAt(1000 * kMillisecond, 0));
-    EXPECT_EQ(pairer.push(Side::kLeft, frameAt(1000 * kMillisecond + kMaxSkew + beyond, 0)).has_value(),
+    EXPECT_EQ(pairer.push(Side::kLeft, frameAt(1000 * kMillisecond + kMaxTimeOffset + beyond, 0)).has_value(),
               beyond == 0);
   }
 }
 
-TEST(Pairer, AFrameThatIsNotLaterIsDroppedAndCounted) {
-  Pairer pairer(kPeriod, kMaxSkew);
+TEST(LeftRightPairer, AFrameThatIsNotLaterIsDroppedAndCounted) {
+  LeftRightPairer pairer(kPeriod, kMaxTimeOffset);
   pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0));
   pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 1));
   pairer.push(Side::kLeft, frameAt(900 * kMillisecond, 2));
@@ -181,8 +182,8 @@ TEST(Pairer, AFrameThatIsNotLaterIsDroppedAndCounted) {
   EXPECT_EQ(pairer.waiting(Side::kLeft), 1u);
 }
 
-TEST(Pairer, RestartForgetsOneCameraOnly) {
-  Pairer pairer(kPeriod, kMaxSkew);
+TEST(LeftRightPairer, RestartForgetsOneCameraOnly) {
+  LeftRightPairer pairer(kPeriod, kMaxTimeOffset);
   pairer.push(Side::kLeft, frameAt(1000 * kMillisecond, 0));
   pairer.restart(Side::kLeft);
   EXPECT_EQ(pairer.counts().without_partner[0], 1u);
@@ -190,7 +191,7 @@ TEST(Pairer, RestartForgetsOneCameraOnly) {
   EXPECT_EQ(pairer.counts().out_of_order[0], 0u);
 }
 
-TEST(Pairer, StallOfOneCameraKeepsNoMoreThanAFewFrames) {
+TEST(LeftRightPairer, StallOfOneCameraKeepsNoMoreThanAFewFrames) {
   Stream right;
   right.stall_from = 50;
   right.stall_to = 150;
@@ -200,7 +201,7 @@ TEST(Pairer, StallOfOneCameraKeepsNoMoreThanAFewFrames) {
   EXPECT_EQ(result.pairs[50].left.sequence, 150u) << "the first pair after the stall";
 }
 
-TEST(Pairer, DriftingCamerasLoseOneFrameEachTimeTheySlideByAFrame) {
+TEST(LeftRightPairer, DriftingCamerasLoseOneFrameEachTimeTheySlideByAFrame) {
   Stream right;
   right.period = kPeriod + kPeriod / 100;
   const auto result = run({}, right, 1000, kPeriod / 2 + kMillisecond);
@@ -222,7 +223,7 @@ TEST(PairerProperty, EveryPairIsTheNearest) {
     right.offset = between(-13, 13) * kMillisecond;
     left.loss = right.loss = 0.1;
     left.delay_jitter = right.delay_jitter = 10 * kMillisecond;
-    const auto result = run(left, right, 300, kMaxSkew, seed);
+    const auto result = run(left, right, 300, kMaxTimeOffset, seed);
     expectSound(result);
     std::size_t matching = 0;
     for (const auto& pair : result.pairs) matching += pair.left.sequence == pair.right.sequence ? 1 : 0;
@@ -253,9 +254,9 @@ TEST(PairerProperty, SoundUnderJitterDriftGapsBurstsAndStalls) {
     };
     const Stream left = anyStream();
     const Stream right = anyStream();
-    const std::int64_t max_skew = between(1, 40) * kMillisecond;
+    const std::int64_t max_time_offset = between(1, 40) * kMillisecond;
     SCOPED_TRACE(seed);
-    expectSound(run(left, right, 300, max_skew, seed), max_skew);
+    expectSound(run(left, right, 300, max_time_offset, seed), max_time_offset);
   }
 }
 

@@ -32,7 +32,7 @@ class StereoCameraTest : public testing::Test {
     StereoConfig config;
     config.left = cameraConfig("left", kernel_.path(0));
     config.right = cameraConfig("right", kernel_.path(1));
-    config.max_skew_s = 0.0019;
+    config.max_time_offset_s = 0.0019;
     return config;
   }
 

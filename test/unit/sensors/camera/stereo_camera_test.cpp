@@ -34,7 +34,7 @@ TEST_F(StereoCameraTest, TheLargestSkewCanBeChangedWhileItRuns) {
   start(config());
   ASSERT_TRUE(morePairsCome());
   rig_->camera().setMaxTimeOffset(0.0005);
-  EXPECT_DOUBLE_EQ(rig_->camera().status().max_skew_s, 0.0005);
+  EXPECT_DOUBLE_EQ(rig_->camera().status().max_time_offset_s, 0.0005);
   const auto aloneSoFar = [this] { return rig_->camera().status().pairing.without_partner[0]; };
   const auto alone = aloneSoFar();
   EXPECT_TRUE(comesTrue([&] { return aloneSoFar() > alone + 10; }));
@@ -82,7 +82,7 @@ TEST_F(StereoCameraTest, PairsThatBothCamerasCompleteComeOneByOneInOrder) {
     camera.offset_ns = 2'500'000;
   });
   auto waiting = config();
-  waiting.max_skew_s = 0.003;
+  waiting.max_time_offset_s = 0.003;
   start(waiting, milliseconds(15));
   ASSERT_TRUE(rig_->pairsCome(40));
   const auto pairs = rig_->stop();
@@ -99,7 +99,7 @@ TEST_F(StereoCameraTest, MeasuresTheSlideOfCamerasWhoseRateIsNotTheOneAskedFor) 
   kernel_.change(1, withPeriod(10'100'000));
   auto faster = config();
   faster.left.format.rate_hz = faster.right.format.rate_hz = 160.0;
-  faster.max_skew_s = 0.0051;
+  faster.max_time_offset_s = 0.0051;
   start(faster);
   ASSERT_TRUE(rig_->pairsCome(250));  // the skew passes a whole period twice
   // What a busy machine made the pairer miss leaves the fit again.
