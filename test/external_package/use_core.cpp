@@ -1,4 +1,5 @@
 // Parameters with ranges from YAML, a rigid motion and back, a trajectory as text.
+#include <stereo_nav/core/input_error.h>
 #include <stereo_nav/core/parameters.h>
 #include <stereo_nav/core/trajectory.h>
 
@@ -27,6 +28,14 @@ int main() {
     refused = true;
   }
   expect(refused, "a value out of range is refused");
+
+  bool told = false;
+  try {
+    stereo_nav::readTum("no_such_file.tum");
+  } catch (const stereo_nav::InputError&) {
+    told = true;
+  }
+  expect(told, "a file that does not exist is told from other errors");
 
   stereo_nav::StampedPose end;
   end.time_s = 1.0;
