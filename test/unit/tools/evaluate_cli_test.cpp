@@ -44,8 +44,8 @@ class EvaluateTest : public ::testing::Test {
 
   static test::CommandResult evaluate(const std::string& arguments) {
     const std::string config = std::string(" --config ") + STEREO_NAV_SOURCE_DIR + "/config/vo_thesis.yaml";
-    return test::runCommand(std::string("ROS_PACKAGE_PATH=") + STEREO_NAV_SOURCE_DIR + " " +
-                            EVALUATE_PROGRAM + " " + arguments + config);
+    return test::runCommand(std::string("ROS_PACKAGE_PATH=") + STEREO_NAV_SOURCE_DIR + " " + EVALUATE + " " +
+                            arguments + config);
   }
 
   /// Exit status 2, one line that holds `part`, and no results.

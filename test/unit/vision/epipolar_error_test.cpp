@@ -78,12 +78,5 @@ TEST_F(EpipolarErrorTest, FollowsACameraThatWasKnocked) {
   EXPECT_NEAR(error.at({160.0, 120.0}).y(), -0.5, 0.05);
 }
 
-TEST_F(EpipolarErrorTest, ResetForgets) {
-  EpipolarError error(EpipolarErrorParams(), calibration);
-  teach(error, 200, 0.0);
-  error.reset();
-  EXPECT_EQ(error.at({10.0, 10.0}), Eigen::Vector2d(0.0, 0.0));
-}
-
 }  // namespace
 }  // namespace stereo_nav::vision
