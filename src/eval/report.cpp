@@ -160,6 +160,9 @@ std::optional<std::string> writeReport(const std::string& directory, const Evalu
   if (input.ground_truth.empty()) {
     note += "<p class=\"warning\">No ground truth: the errors are unknown, the path is the estimate's.</p>\n";
   }
+  for (const std::string& line : input.notes) {
+    note += "<p class=\"warning\">" + htmlEscaped(line) + "</p>\n";
+  }
   if (const auto frame = wrongTruthFrame(input, summary)) {
     note += "<p class=\"warning\">" + htmlEscaped(*frame) + "</p>\n";
   }

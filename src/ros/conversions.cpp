@@ -1,7 +1,6 @@
 #include "stereo_nav/ros/conversions.h"
 
 #include <cv_bridge/cv_bridge.h>
-#include <image_geometry/pinhole_camera_model.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "ros/judged_infos.h"
 #include "stereo_nav/core/input_error.h"
 
 namespace stereo_nav::ros_io {
@@ -24,75 +24,11 @@ bool isSupported(const std::string& encoding) {
   return std::find(supported.begin(), supported.end(), encoding) != supported.end();
 }
 
-void checkFinite(const sensor_msgs::CameraInfo& info, const char* side) {
-  const auto finite = [](double value) { return std::isfinite(value); };
-  if (std::all_of(info.K.begin(), info.K.end(), finite) &&
-      std::all_of(info.D.begin(), info.D.end(), finite) &&
-      std::all_of(info.R.begin(), info.R.end(), finite) &&
-      std::all_of(info.P.begin(), info.P.end(), finite)) {
-    return;
-  }
-  throw InputError(std::string("the ") + side +
-                   " camera_info holds a NaN or an infinity; calibrate the pair again");
-}
-
-void checkUsable(const sensor_msgs::CameraInfo& info, const char* side) {
-  checkFinite(info, side);
-  if (info.K[0] == 0.0 || info.P[0] == 0.0) {
-    throw InputError(
-        std::string("the ") + side +
-        " camera is not calibrated (K or P of its camera_info is zero); was the calibration file found?");
-  }
-}
-
-std::string sizeOf(const sensor_msgs::CameraInfo& info) {
-  return std::to_string(info.width) + "x" + std::to_string(info.height);
-}
-
 }  // namespace
 
 vision::StereoCalibration toCalibration(const sensor_msgs::CameraInfo& left,
                                         const sensor_msgs::CameraInfo& right) {
-  checkUsable(left, "left");
-  checkUsable(right, "right");
-  if (left.width != right.width || left.height != right.height) {
-    throw InputError("left camera_info is for " + sizeOf(left) + ", right for " + sizeOf(right) +
-                     "; both cameras must deliver and be calibrated at one size");
-  }
-  if (left.header.frame_id != right.header.frame_id) {
-    throw InputError("frame ids differ: left '" + left.header.frame_id + "', right '" +
-                     right.header.frame_id +
-                     "'; both images and camera_infos must carry the left optical frame");
-  }
-  vision::StereoCalibration calibration;
-  calibration.fx = right.P[0];
-  calibration.fy = right.P[5];
-  calibration.cx = left.P[2];
-  calibration.cy = right.P[6];
-  calibration.right_cx = right.P[2];
-  calibration.baseline_m = -right.P[3] / right.P[0];
-  calibration.width = static_cast<int>(left.width);
-  calibration.height = static_cast<int>(left.height);
-  if (left.P[3] != 0.0 || calibration.baseline_m < 0.0) {
-    std::ostringstream message;
-    message << "P[3] is " << left.P[3] << " in the left camera_info and " << right.P[3]
-            << " in the right one; it must be 0 and -fx * baseline. Are left and right swapped?";
-    throw InputError(message.str());
-  }
-  if (calibration.baseline_m == 0.0) {
-    throw InputError(
-        "camera_info without baseline: P[3] of the right camera is 0. The cameras were calibrated one by "
-        "one; run a stereo calibration");
-  }
-  if (std::abs(left.P[0] - right.P[0]) > 1e-6 * left.P[0] ||
-      std::abs(left.P[5] - right.P[5]) > 1e-6 * left.P[5] ||
-      std::abs(left.P[6] - right.P[6]) > 1e-6 * std::abs(left.P[6])) {
-    throw InputError(
-        "the projection matrices P of the two camera_infos differ in fx, fy or cy; they are not from one "
-        "stereo calibration");
-  }
-  calibration.validate();
-  return calibration;
+  return judgeInfos(left, right).calibration;
 }
 
 cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image) {
@@ -121,15 +57,22 @@ cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image) {
 }
 
 cv::Mat rawRows(const sensor_msgs::CameraInfo& info) {
-  const bool known = info.distortion_model.empty() || info.distortion_model == "plumb_bob" ||
-                     info.distortion_model == "rational_polynomial";
-  const bool complete = info.D.empty() || info.D.size() == 4 || info.D.size() == 5 || info.D.size() == 8;
-  if (!known || !complete) return {};
-  image_geometry::PinholeCameraModel camera;
-  camera.fromCameraInfo(info);
+  const std::size_t count = info.D.size();
+  const bool polynomial = info.distortion_model == "rational_polynomial" ||
+                          info.distortion_model == "plumb_bob" || info.distortion_model.empty();
+  const bool complete = count == 0 || count == 4 || count == 5 || count == 8 || count == 12 || count == 14;
+  const bool equidistant = info.distortion_model == "equidistant" && count == 4;
+  if (!equidistant && (!polynomial || !complete)) return {};
+  const cv::Matx33d K(info.K.data());
+  const cv::Matx33d R(info.R.data());
+  const cv::Matx33d P = cv::Matx34d(info.P.data()).get_minor<3, 3>(0, 0);
+  const cv::Size size(static_cast<int>(info.width), static_cast<int>(info.height));
   cv::Mat columns, rows;
-  cv::initUndistortRectifyMap(camera.intrinsicMatrix(), camera.distortionCoeffs(), camera.rotationMatrix(),
-                              camera.projectionMatrix(), camera.fullResolution(), CV_32FC1, columns, rows);
+  if (equidistant) {
+    cv::fisheye::initUndistortRectifyMap(K, info.D, R, P, size, CV_32FC1, columns, rows);
+  } else {
+    cv::initUndistortRectifyMap(K, info.D, R, P, size, CV_32FC1, columns, rows);
+  }
   return rows;
 }
 

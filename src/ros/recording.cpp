@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "ros/image_stamp.h"
+#include "ros/judged_infos.h"
 #include "ros/recorded_depth.h"
 #include "ros/rig_topics.h"
 #include "stereo_nav/core/input_error.h"
@@ -118,11 +119,24 @@ void Recording::findTopics(const RecordingOptions& options) {
   topics_.imu_quat = find(topics::kImuQuaternion);
 }
 
-sensor_msgs::CameraInfo Recording::firstInfo(const std::string& topic) const {
+sensor_msgs::CameraInfo Recording::firstInfo(const std::string& topic) {
   rosbag::View view(bag_, rosbag::TopicQuery(topic));
+  std::optional<sensor_msgs::CameraInfo> empty_one;
+  std::size_t empty = 0;
   for (const rosbag::MessageInstance& message : view) {
-    if (const auto info = message.instantiate<sensor_msgs::CameraInfo>()) return *info;
+    const auto info = message.instantiate<sensor_msgs::CameraInfo>();
+    if (!info) continue;
+    if (isCalibrated(*info)) {
+      if (empty > 0) {
+        notes_.push_back(topic + ": the first " + std::to_string(empty) +
+                         " messages are all zero; the calibration of the later ones is used for all frames");
+      }
+      return *info;
+    }
+    ++empty;
+    if (!empty_one) empty_one = *info;
   }
+  if (empty_one) return *empty_one;
   throw InputError(path_ + ": " + topic + " holds no sensor_msgs/CameraInfo");
 }
 

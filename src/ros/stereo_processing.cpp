@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "ros/judged_infos.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/parameters.h"
 #include "stereo_nav/ros/conversions.h"
@@ -32,11 +33,13 @@ void DisparityParams::describe(ParameterVisitor& visitor) {
 }
 
 StereoProcessing::StereoProcessing(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right,
-                                   const DisparityParams& disparity)
-    : calibration_(toCalibration(left, right)) {
-  calibration_.left_raw_rows = rawRows(left);
-  calibration_.right_raw_rows = rawRows(right);
-  model_.fromCameraInfo(left, right);
+                                   const DisparityParams& disparity) {
+  const JudgedInfos infos = judgeInfos(left, right);
+  notes_ = infos.notes;
+  calibration_ = infos.calibration;
+  calibration_.left_raw_rows = rawRows(infos.left);
+  calibration_.right_raw_rows = rawRows(infos.right);
+  model_.fromCameraInfo(infos.left, infos.right);
   // Rounding as in the nodelet's dynamic_reconfigure callback.
   processor_.setStereoType(disparity.stereo_algorithm == 0 ? stereo_image_proc::StereoProcessor::BM
                                                            : stereo_image_proc::StereoProcessor::SGBM);

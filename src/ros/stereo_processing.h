@@ -5,6 +5,8 @@
 #include <stereo_image_proc/processor.h>
 
 #include <opencv2/core.hpp>
+#include <string>
+#include <vector>
 
 #include "stereo_nav/core/parameter_visitor.h"
 #include "stereo_nav/vision/stereo_calibration.h"
@@ -37,11 +39,13 @@ struct DisparityParams {
 /// scratch buffers).
 class StereoProcessing {
  public:
-  /// Throws InputError if the camera_infos are no stereo calibration.
+  /// Throws InputError if the camera_infos are no stereo calibration (judgeInfos()).
   StereoProcessing(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right,
                    const DisparityParams& disparity);
 
   const vision::StereoCalibration& calibration() const { return calibration_; }
+  /// What had to be assumed of the calibration, or changed in it; one line each.
+  const std::vector<std::string>& notes() const { return notes_; }
 
   /// Rectifies to CV_8UC1, with bilinear interpolation, which is the nodelet's default. Throws InputError for
   /// images that do not have the calibration's size.
@@ -56,6 +60,7 @@ class StereoProcessing {
                   const char* side) const;
 
   vision::StereoCalibration calibration_;
+  std::vector<std::string> notes_;
   image_geometry::StereoCameraModel model_;
   stereo_image_proc::StereoProcessor processor_;
 };

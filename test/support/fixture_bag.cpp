@@ -62,11 +62,18 @@ void writeFrame(rosbag::Bag& bag, const FixtureBag& fixture, int index) {
   const vision::StereoCalibration c = roomCalibration();
   const double left_s = fixture.period_s * index;
   const double right_s = left_s + fixture.right_lag_s;
-  const auto images = TexturedRoom().renderPair(roomDrive(left_s), roomDrive(right_s), c);
+  auto images = TexturedRoom().renderPair(roomDrive(left_s), roomDrive(right_s), c);
   sensor_msgs::CameraInfo left_info = cameraInfo(c, false);
   sensor_msgs::CameraInfo right_info = cameraInfo(c, true);
   left_info.header.stamp = stampOf(left_s);
   right_info.header.stamp = stampOf(right_s);
+  if (fixture.toe_in_rad != 0.0) {
+    const Eigen::Matrix3d R = rectifiedFromRaw(fixture.toe_in_rad);
+    const Eigen::Isometry3d T_room_right =
+        roomDrive(right_s) * Eigen::Translation3d(c.baseline_m, 0.0, 0.0) * Eigen::Isometry3d(R);
+    images.right = TexturedRoom().render(T_room_right, c.fx, c.fy, c.right_cx, c.cy, {c.width, c.height});
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(right_info.R.data()) = R;
+  }
   bag.write(topics::kLeftImage, stampOf(left_s), imageOf(images.left, stampOf(left_s)));
   bag.write(topics::kLeftInfo, stampOf(left_s), left_info);
   bag.write(topics::kRightImage, stampOf(right_s), imageOf(images.right, stampOf(right_s)));
@@ -105,6 +112,10 @@ void writeImu(rosbag::Bag& bag, double time_s) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d rectifiedFromRaw(double toe_in_rad) {
+  return Eigen::AngleAxisd(-toe_in_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
+}
 
 sensor_msgs::CameraInfo cameraInfo(const vision::StereoCalibration& c, bool right) {
   sensor_msgs::CameraInfo info;

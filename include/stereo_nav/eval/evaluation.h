@@ -26,6 +26,7 @@ struct EvaluationInput {
   std::string input;                ///< as named on the command line; goes into the summary
   std::string config;               ///< likewise
   std::vector<FrameRecord> frames;  ///< every input frame, in order of time
+  std::vector<std::string> notes;   ///< what had to be assumed or was left out, one line each
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< of the left optical frame
   std::string camera_frame;  ///< name of that frame, for messages; may be empty
   Trajectory ground_truth;   ///< of base_link in any fixed frame; empty: no ground truth (see ofOtherBody())

@@ -15,15 +15,16 @@
 
 namespace stereo_nav::ros_io {
 
-/// Geometry of the rectified pair from both camera_infos. Throws InputError for errors on which
-/// image_geometry would abort the process or which it would silently accept: differing frame ids or sizes, no
-/// stereo calibration (P[3] = 0), swapped cameras (baseline negative), NaN, an uncalibrated camera (K all
-/// zero).
+/// Geometry of the rectified pair from both camera_infos; where these hold binning or a roi, of the delivered
+/// images. Throws InputError for everything on which image_geometry would abort the process or which it would
+/// silently accept: differing frame ids or sizes, no stereo calibration (P[3] = 0), swapped cameras, NaN, an
+/// uncalibrated camera (K all zero), an unknown lens model, another number of coefficients, a baseline in
+/// another unit, matrices or a roi that do not fit the image.
 vision::StereoCalibration toCalibration(const sensor_msgs::CameraInfo& left,
                                         const sensor_msgs::CameraInfo& right);
 
 /// For each pixel of the rectified image the row of the raw image that it comes from, CV_32FC1; empty for
-/// distortion models that image_proc does not support.
+/// distortion models that image_proc does not support. Binning and a roi are not looked at.
 cv::Mat rawRows(const sensor_msgs::CameraInfo& info);
 
 /// Converts to a CV_8UC1 image. Accepts mono8, mono16 (full range scaled to 8 bit), rgb8, bgr8, rgba8, bgra8,

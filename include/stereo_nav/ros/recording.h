@@ -46,10 +46,12 @@ class Recording {
   /// Opens the bag and reads everything but the images.
   Recording(const std::string& path, const RecordingOptions& options);
 
-  /// The first camera_info of the left camera.
+  /// The first camera_info of the left camera that is not all zero; drivers publish such ones at their start.
   const sensor_msgs::CameraInfo& leftInfo() const { return left_info_; }
-  /// The first camera_info of the right camera.
+  /// The same of the right camera.
   const sensor_msgs::CameraInfo& rightInfo() const { return right_info_; }
+  /// What had to be assumed, or was left out; one line each.
+  const std::vector<std::string>& notes() const { return notes_; }
   /// Number of pairs that forEachPair() hands out.
   std::size_t pairs() const { return pairs_.size(); }
   /// Number of images that belong to no pair.
@@ -90,7 +92,7 @@ class Recording {
   std::optional<std::string> find(const std::string& relative_name) const;
   std::string require(const std::string& relative_name) const;
   std::string topicList() const;
-  sensor_msgs::CameraInfo firstInfo(const std::string& topic) const;
+  sensor_msgs::CameraInfo firstInfo(const std::string& topic);
 
   std::string path_;
   mutable rosbag::Bag bag_;
@@ -107,6 +109,7 @@ class Recording {
   std::vector<ros::Time> right_stamps_;
   std::vector<StampPair> pairs_;
   std::size_t unpaired_images_ = 0;
+  std::vector<std::string> notes_;
   int mono16_bits_ = 16;         ///< that mono16 images fill
   bool mono16_swapped_ = false;  ///< whether their bytes are exchanged
 };

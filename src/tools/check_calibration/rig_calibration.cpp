@@ -1,13 +1,13 @@
 #include "tools/check_calibration/rig_calibration.h"
 
-#include <camera_calibration_parsers/parse.h>
 #include <sensor_msgs/distortion_models.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "ros/calibration_file.h"
+#include "ros/judged_infos.h"
 #include "stereo_nav/core/input_error.h"
-#include "stereo_nav/ros/conversions.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -16,13 +16,7 @@ sensor_msgs::CameraInfo readCameraInfo(const std::string& path) {
   if (!std::filesystem::exists(path)) {
     throw InputError(path + ": does not exist; --calibration names the folder with left.yaml and right.yaml");
   }
-  std::string name;
-  sensor_msgs::CameraInfo info;
-  if (!camera_calibration_parsers::readCalibration(path, name, info)) {
-    throw InputError(path +
-                     ": cannot be read as a camera calibration; it must be as camera_calibration saves it");
-  }
-  return info;
+  return ros_io::readCalibrationFile(path);
 }
 
 calibration::CameraModel toModel(const sensor_msgs::CameraInfo& info, const std::string& side) {
@@ -49,8 +43,8 @@ CameraInfos readCalibrationFolder(const std::string& folder) {
 }
 
 calibration::StereoRig toStereoRig(const CameraInfos& infos) {
-  const vision::StereoCalibration rectified = ros_io::toCalibration(infos.left, infos.right);
-  return {toModel(infos.left, "left"), toModel(infos.right, "right"), rectified};
+  const ros_io::JudgedInfos judged = ros_io::judgeInfos(infos.left, infos.right);
+  return {toModel(judged.left, "left"), toModel(judged.right, "right"), judged.calibration};
 }
 
 }  // namespace stereo_nav::tools

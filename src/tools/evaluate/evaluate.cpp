@@ -99,6 +99,7 @@ int writeResults(const EvaluateOptions& options, const EvaluationRun& run) {
   writeFileAtomically(folder + "timing.json", eval::toJson(timing));
   const auto warning = eval::writeReport(options.output, evaluation, run.input, timing);
   printSummary(evaluation, timing, run.unpaired_images);
+  for (const std::string& note : run.input.notes) std::fprintf(stderr, "evaluate: note: %s\n", note.c_str());
   if (const auto frame = eval::wrongTruthFrame(run.input, evaluation.summary)) {
     std::fprintf(stderr, "evaluate: %s\n", frame->c_str());
   }

@@ -165,6 +165,8 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.config = std::filesystem::path(options.config).filename().string();
   run.input.T_base_camera = T_base_camera;
   run.input.camera_frame = recording.leftInfo().header.frame_id;
+  run.input.notes = recording.notes();
+  run.input.notes.insert(run.input.notes.end(), processing.notes().begin(), processing.notes().end());
   run.input.ground_truth = groundTruthOfBase(options, recording);
 
   for (int repetition = 0; repetition < options.repeat; ++repetition) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/atomic_file.h"
+#include "ros/judged_infos.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/conversions.h"
 #include "tools/common/command_line.h"
@@ -114,6 +115,15 @@ Sequence readSequence(const Arguments& arguments) {
   return arguments.format == "kitti" ? readKitti(arguments.folder) : readImages(arguments.folder);
 }
 
+/// Before images are read: a calibration that no odometry can use is no recording.
+void checkCalibration(const Arguments& arguments, const Sequence& sequence) {
+  try {
+    ros_io::judgeInfos(sequence.left.info, sequence.right.info);
+  } catch (const std::exception& error) {
+    throw InputError(arguments.folder + ": " + error.what());
+  }
+}
+
 void showProgress(std::size_t done, std::size_t all) {
   if (interrupted) throw InputError("interrupted; no bag was written");
   if (isatty(STDERR_FILENO) == 0 && done != all) return;
@@ -125,6 +135,7 @@ int run(int argc, char** argv) {
   if (!parse(argc, argv, arguments)) return 0;
   { const AtomicFile writable(arguments.output); }  // before the work, not after it
   Sequence sequence = readSequence(arguments);
+  checkCalibration(arguments, sequence);
   useFullRange(sequence);
   if (arguments.reverse) reverse(sequence);
   if (arguments.mirror) mirror(sequence);

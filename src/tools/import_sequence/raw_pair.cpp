@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "ros/judged_infos.h"
 #include "stereo_nav/core/input_error.h"
-#include "stereo_nav/ros/conversions.h"
 #include "tools/import_sequence/rectified_camera.h"
 
 namespace stereo_nav::tools {
@@ -62,18 +62,6 @@ bool isRectified(const sensor_msgs::CameraInfo& info) {
          cv::norm(cv::Matx33d(info.K.data()) - cv::Matx34d(info.P.data()).get_minor<3, 3>(0, 0)) < 1e-6;
 }
 
-void checkModel(const std::string& source, const sensor_msgs::CameraInfo& info) {
-  const std::string& model = info.distortion_model;
-  const std::size_t count = info.D.size();
-  const bool fits = (model == models::PLUMB_BOB && (count == 4 || count == 5)) ||
-                    (model == models::RATIONAL_POLYNOMIAL && (count == 8 || count == 12 || count == 14)) ||
-                    (model == models::EQUIDISTANT && count == 4) || (model.empty() && count == 0);
-  if (fits) return;
-  throw InputError(source + ": the lens model '" + model + "' with " + std::to_string(count) +
-                   " coefficients is not supported; calibrate as plumb_bob (5), rational_polynomial (8) or "
-                   "equidistant (4)");
-}
-
 sensor_msgs::CameraInfo toInfo(const RawLens& lens, const cv::Size& size, const cv::Matx33d& R,
                                const cv::Matx34d& P) {
   sensor_msgs::CameraInfo info;
@@ -110,20 +98,16 @@ void useRawPair(const RawPair& pair, Sequence& sequence) {
 }
 
 void useRectification(const RectifyingPair& pair, Sequence& sequence) {
-  checkModel(pair.source, pair.left);
-  checkModel(pair.source, pair.right);
-  sensor_msgs::CameraInfo left = pair.left;
-  sensor_msgs::CameraInfo right = pair.right;
+  ros_io::JudgedInfos judged;
   try {
-    left.header.frame_id = right.header.frame_id = "";
-    ros_io::toCalibration(left, right);
+    judged = ros_io::judgeInfos(pair.left, pair.right);
   } catch (const std::exception& error) {
     throw InputError(pair.source + ": " + error.what());
   }
-  sequence.left.info = left;
-  sequence.right.info = right;
-  if (isRectified(left) && isRectified(right)) return;
-  if (isRectifiedDownstream(left) && isRectifiedDownstream(right)) return;
+  sequence.left.info = judged.left;
+  sequence.right.info = judged.right;
+  if (isRectifiedDownstream(pair.left) && isRectifiedDownstream(pair.right)) return;
+  if (isRectified(pair.left) && isRectified(pair.right)) return;
   sequence.notes.push_back(pair.source +
                            ": image_proc does not rectify with such a calibration; the images are " +
                            "rectified while they are imported");

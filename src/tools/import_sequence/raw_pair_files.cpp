@@ -1,11 +1,11 @@
 // Calibration files of Kalibr, OpenCV and ROS.
-#include <camera_calibration_parsers/parse.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "ros/calibration_file.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/parameters.h"
 #include "tools/import_sequence/raw_pair.h"
@@ -131,12 +131,8 @@ void check(const RawPair& pair) {
 }
 
 sensor_msgs::CameraInfo readCameraInfo(const std::string& path) {
-  std::string name;
-  sensor_msgs::CameraInfo info;
   if (!fs::exists(path)) throw InputError(path + ": does not exist; the other camera's file is there");
-  if (camera_calibration_parsers::readCalibration(path, name, info)) return info;
-  throw InputError(path +
-                   ": cannot be read as a camera calibration; it must be as camera_calibration saves it");
+  return ros_io::readCalibrationFile(path);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ sensor_msgs::CameraInfo info(bool right) {
   info.header.frame_id = "camera_left_optical";
   info.width = 320;
   info.height = 240;
+  info.distortion_model = "plumb_bob";
   info.D.assign(5, 0.0);
   info.K = {417, 0, 154, 0, 417, 131, 0, 0, 1};
   info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -65,7 +66,6 @@ TEST(ToCalibration, RefusesWhatImageGeometryWouldAbortOnOrMisread) {
 /// The rows agree with image_geometry, by which image_proc rectifies.
 TEST(RawRows, AreThoseOfTheUnrectifiedPixels) {
   sensor_msgs::CameraInfo camera = info(false);
-  camera.distortion_model = "plumb_bob";
   camera.D = {-0.3, 0.1, 0.001, -0.002, 0.0};
   const double tilt = 0.03;
   camera.R = {1, 0, 0, 0, std::cos(tilt), -std::sin(tilt), 0, std::sin(tilt), std::cos(tilt)};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <unistd.h>
 
@@ -42,8 +43,9 @@ class EvaluateTest : public ::testing::Test {
 
   static std::string file(const std::string& name) { return (folder / name).string(); }
 
-  static test::CommandResult evaluate(const std::string& arguments) {
-    const std::string config = std::string(" --config ") + STEREO_NAV_SOURCE_DIR + "/config/vo_thesis.yaml";
+  static test::CommandResult evaluate(const std::string& arguments,
+                                      const std::string& config_file = "vo_thesis.yaml") {
+    const std::string config = std::string(" --config ") + STEREO_NAV_SOURCE_DIR + "/config/" + config_file;
     return test::runCommand(std::string("ROS_PACKAGE_PATH=") + STEREO_NAV_SOURCE_DIR + " " + EVALUATE + " " +
                             arguments + config);
   }
@@ -129,6 +131,71 @@ TEST_F(EvaluateTest, SaysWhichFramesAreLostAndEndsWithStatusThreeWhenTheyAreMost
   EXPECT_NE(result.output.find("  lost: frames 4 to 11 (0.40 to 1.10 s): "), std::string::npos)
       << result.output;
   EXPECT_TRUE(fs::exists(folder / "covered/report.html"));
+}
+
+TEST_F(EvaluateTest, ImagesWithoutDistortionAreRectifiedByTheirRotation) {
+  test::FixtureBag fixture;
+  fixture.frames = 12;
+  fixture.toe_in_rad = 0.01;
+  test::writeFixtureBag(file("toe_in.bag"), fixture);
+  const auto result = evaluate(file("toe_in.bag") + " --output " + file("toe_in"), "vo.yaml");
+  ASSERT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find("note: the right camera_info: all coefficients of D are 0"), std::string::npos)
+      << result.output;
+  const auto summary = nlohmann::json::parse(contentOf(folder / "toe_in/summary.json"));
+  EXPECT_LT(summary["end_error_percent"].get<double>(), 2.0) << "of 44 cm; copied images give 20";
+}
+
+TEST_F(EvaluateTest, RefusesCalibrationsInOneLine) {
+  using sensor_msgs::CameraInfo;
+  const auto with = [](const std::string& name, const std::function<void(CameraInfo&)>& change) {
+    return copyWith<CameraInfo>(name, ros_io::topics::kRightInfo, [&](CameraInfo& info) {
+      change(info);
+      return true;
+    });
+  };
+  expectRefusal(with("mm.bag", [](CameraInfo& info) { info.P[3] *= 1000.0; }), "likely in mm (0.12 m)");
+  expectRefusal(with("roi.bag",
+                     [](CameraInfo& info) {
+                       info.roi.x_offset = 160;
+                       info.roi.width = info.width;
+                       info.roi.height = info.height;
+                     }),
+                "does not lie in the image of 320x240");
+  expectRefusal(with("fisheye.bag", [](CameraInfo& info) { info.distortion_model = "fisheye"; }),
+                "distortion_model 'fisheye' is not supported");
+  expectRefusal(with("short.bag", [](CameraInfo& info) { info.D = {0.1, 0.1}; }), "D holds 2 coefficients");
+  expectRefusal(with("turned.bag", [](CameraInfo& info) { info.R[0] = 2.0; }), "R is no rotation");
+}
+
+TEST_F(EvaluateTest, UsesTheFirstCalibrationThatIsNotZero) {
+  int infos = 0;
+  const auto late = copyWith<sensor_msgs::CameraInfo>("late.bag", ros_io::topics::kLeftInfo,
+                                                      [&](sensor_msgs::CameraInfo& info) {
+                                                        const std_msgs::Header header = info.header;
+                                                        if (infos++ < 3) info = sensor_msgs::CameraInfo();
+                                                        info.header = header;
+                                                        return true;
+                                                      });
+  const auto result = evaluate(late + " --output " + file("late"));
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_NE(result.output.find("note: camera/left/camera_info: the first 3 messages are all zero"),
+            std::string::npos)
+      << result.output;
+}
+
+TEST_F(EvaluateTest, TakesARectifiedPairWithoutModelAsItIs) {
+  const auto blank = copyWith<sensor_msgs::CameraInfo>("blank.bag", ros_io::topics::kLeftInfo,
+                                                       [](sensor_msgs::CameraInfo& info) {
+                                                         info.distortion_model.clear();
+                                                         info.D.clear();
+                                                         return true;
+                                                       });
+  for (const std::string name : {"blank", "room"}) {
+    const auto result = evaluate(file(name + ".bag") + " --output " + file(name));
+    EXPECT_EQ(result.status, 0) << result.output;
+  }
+  EXPECT_EQ(contentOf(folder / "blank/trajectory.tum"), contentOf(folder / "room/trajectory.tum"));
 }
 
 TEST_F(EvaluateTest, RefusesBadArguments) {

@@ -131,10 +131,14 @@ TEST_F(RawPairs, refusesWhatItCannotUse) {
   EXPECT_NE(refusal().find("holds more than one calibration"), std::string::npos);
   std::filesystem::remove(folder_ / "calib.txt");
   std::filesystem::remove(folder_ / "camchain.yaml");
-  folder_.write("left.yaml", rosInfo("plumb_bob", "[0, 0, 0, 0, 0, 0, 0, 0]", 8, 0.0, 0.0));
+  folder_.write("left.yaml", rosInfo("plumb_bob", "[0.1, 0, 0, 0, 0, 0, 0, 0]", 8, 0.0, 0.0));
   EXPECT_NE(refusal().find("right.yaml: does not exist"), std::string::npos);
   folder_.write("right.yaml", rosInfo("plumb_bob", "[0, 0, 0, 0, 0]", 5, 0.0, -4.0));
-  EXPECT_NE(refusal().find("'plumb_bob' with 8 coefficients is not supported"), std::string::npos);
+  EXPECT_NE(refusal().find("D holds 8 coefficients, plumb_bob has 5"), std::string::npos);
+  const std::string fisheye = rosInfo("plumb_bob", "[0.1, 0, 0, 0]", 4, 0.0, 0.0) + "camera_model: fisheye\n";
+  folder_.write("left.yaml", fisheye);
+  EXPECT_NE(refusal().find("camera_model 'fisheye' with distortion_model 'plumb_bob' is not supported"),
+            std::string::npos);
 }
 
 }  // namespace
