@@ -36,14 +36,18 @@ as_user() (
 
 install_package() { cmake --install "${work_dir%/*}" --prefix "$prefix"; }
 
-# Quick to compile rather than quick to run; without catkin_make's habit of waiting until the computer is idle.
+# The workspace compiles by the commands of BUILD_DIR, with other places; what these have made is taken over, and only
+# what differs compiled. Without catkin_make's habit of waiting until the computer is idle.
 catkin_make_install() {
   ln -sfn "$STEREO_NAV_ROOT" "$workspace/src/stereo_nav"
   ln -sfn "$STEREO_NAV_ROOT/test/external_package" "$workspace/src/stereo_nav_user"
-  local launcher=""
-  command -v ccache >/dev/null && launcher=ccache
-  catkin_make install -C "$workspace" -j "$(nproc)" -l 1000 -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=None \
-    -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"
+  local launcher="/usr/bin/python3;$STEREO_NAV_ROOT/scripts/lib/same_object.py;${work_dir%/*};$workspace" status=0
+  if command -v ccache >/dev/null; then launcher+=";ccache"; fi
+  rm -f "$workspace/same_object.log"
+  catkin_make install -C "$workspace" -j "$(nproc)" -l 1000 -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_BUILD_TYPE=Release \
+    -DSTEREO_NAV_WERROR=ON -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" || status=$?
+  [[ ! -f $workspace/same_object.log ]] || cut -d' ' -f1 "$workspace/same_object.log" | sort | uniq -c
+  return $status
 }
 
 package_found() { [[ $(as_user rospack find stereo_nav) == "$prefix/share/stereo_nav" ]]; }

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Runs a GoogleTest program on the virtual cameras of vm.sh: run.sh SECONDS RESULT.xml COMMAND...
+# Runs a GoogleTest program on the virtual cameras of vm.sh: run.sh SECONDS RESULT.xml [--skip-idle] COMMAND...
 # The result is the program's own JUnit file; where the machine cannot run, one skipped case that says why.
 set -euo pipefail
 
-seconds=$1 result=$2
+seconds=$1 result=$2 options=()
 shift 2
+if [[ $1 == --skip-idle ]]; then options=("$1") && shift; fi
 folder=$(dirname "${BASH_SOURCE[0]}")
 source "$folder/../support/junit.sh"
 mkdir -p "$(dirname "$result")"
@@ -19,7 +20,7 @@ out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 status=0
 GTEST_OUTPUT=xml:/vm-out/result.xml
-"$folder/vm.sh" --out "$out" --seconds "$seconds" -- env GTEST_OUTPUT=$GTEST_OUTPUT "$@" || status=$?
+"$folder/vm.sh" --out "$out" --seconds "$seconds" "${options[@]}" -- env GTEST_OUTPUT=$GTEST_OUTPUT "$@" || status=$?
 if [[ -s $out/result.xml ]]; then
   cp "$out/result.xml" "$result"
 else
