@@ -48,7 +48,7 @@ TEST(Calibrator, CommitSavesTheGeometryOfTheCameras) {
                                  "right:=/camera/right/image_raw", "left:=/camera/left/image_raw",
                                  "right_camera:=/camera/right", "left_camera:=/camera/left"});
   // The right camera's calibration is committed last.
-  ASSERT_TRUE(comesTrue([&] { return right.messages.back()->K[0] != 0.0; }, 400s));
+  ASSERT_TRUE(comesTrue([&] { return right.messages.back()->K[0] != 0.0; }, 400.0));
 
   const std::string folder = "/tmp/ros_home/camera_info/";
   EXPECT_TRUE(std::filesystem::exists(folder + "left.yaml"));
