@@ -21,6 +21,7 @@
 #include "stereo_nav/VoStatus.h"
 #include "support/command.h"
 #include "support/node_process.h"
+#include "support/ros_wait.h"
 
 namespace stereo_nav::test {
 namespace {
@@ -29,7 +30,6 @@ const double kCut_s = [] {
   const char* seconds = std::getenv("STEREO_NAV_CUT_S");
   return seconds != nullptr ? std::atof(seconds) : 3.0;
 }();
-constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
 // TCP sends again at 0.2, 0.6, 1.4, 3.0, 6.2, ... s after the first loss: after a cut of 3 s the next attempt
 // comes within 3.2 s. The rest is for a loaded machine.
 constexpr double kResume_s = 20.0;
@@ -133,18 +133,8 @@ class Arrivals {
   std::vector<ros::Subscriber> subscribers_;
 };
 
-bool waitUntil(const std::function<bool()>& condition, double timeout_s) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(timeout_s);
-  while (ros::ok() && !condition()) {
-    if (ros::WallTime::now() > end) return false;
-    ros::spinOnce();
-    ros::WallDuration(0.005).sleep();
-  }
-  return ros::ok();
-}
-
 void spinFor(double duration_s) {
-  waitUntil([] { return false; }, duration_s);
+  spinUntil([] { return false; }, duration_s);
 }
 
 /// The stamps of one topic in a recording within a time.
@@ -183,7 +173,7 @@ class TwoMachines : public testing::Test {
   /// Starts `command` on the robot, beside a recorder of what must not suffer there.
   void startRobot(const std::vector<std::string>& command) {
     robot_ = kRobot.start(folder_, command);
-    ASSERT_TRUE(waitUntil([] { return ros::master::check(); }, kLongWait_s)) << "no master on the robot";
+    ASSERT_TRUE(spinUntil([] { return ros::master::check(); })) << "no master on the robot";
     // By rosrun, which becomes the recorder: `rosbag` may be gone before the recorder it has started has
     // closed the bag.
     recorder_ = kRobot.start(
@@ -193,7 +183,7 @@ class TwoMachines : public testing::Test {
   /// Cuts the link, joins it again, and waits until everything that `arrivals` listens to goes on.
   void cutTheLink(
       const Arrivals& arrivals, const std::function<void()>& meanwhile = [] {}) {
-    ASSERT_TRUE(waitUntil([&] { return arrivals.allHave(20, ros::Time()); }, kLongWait_s))
+    ASSERT_TRUE(spinUntil([&] { return arrivals.allHave(20, ros::Time()); }))
         << "not everything arrives on the base:\n"
         << arrivals.counts();
     spinFor(2.0);
@@ -203,7 +193,7 @@ class TwoMachines : public testing::Test {
     spinFor(kCut_s - (ros::Time::now() - cut_).toSec());
     link_up_ = ros::Time::now();
     setLink(true);
-    EXPECT_TRUE(waitUntil([&] { return arrivals.allHave(10, link_up_); }, kResume_s));
+    EXPECT_TRUE(spinUntil([&] { return arrivals.allHave(10, link_up_); }, kResume_s));
     std::cout << "after a cut of " << kCut_s << " s the base goes on after\n"
               << arrivals.resumption(link_up_);
   }
@@ -265,7 +255,7 @@ TEST_F(TwoMachines, OdometryOnTheBaseGoesOnAfterACutAndTheCamerasAreUndisturbed)
   const auto is_tracking = [&] {
     return status.header.stamp > link_up_ && status.state == VoStatus::TRACKING;
   };
-  EXPECT_TRUE(waitUntil(is_tracking, kResume_s)) << status.reason;
+  EXPECT_TRUE(spinUntil(is_tracking, kResume_s)) << status.reason;
 
   const auto pairs = onRobot<StereoSync>("/camera/sync");
   std::cout << "on the robot, around the cut: " << pairs.size() << " pairs, largest gap "
@@ -286,10 +276,3 @@ TEST_F(TwoMachines, OdometryThatStartsAnewDuringTheCutIsFoundByTheBase) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "base_station");
-  ros::Time::init();
-  return RUN_ALL_TESTS();
-}

@@ -1,6 +1,6 @@
 // docs/calibration.md from calibrate.launch to check_calibration, without cameras: the launch file as it is,
 // pictures of a board on the cameras' topics, the calibrator's window on a virtual screen, its buttons
-// pressed by the mouse. Started by calibrate.test with the folder for its files.
+// pressed by the mouse. Started by calibrate.test, which says where its files go.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -15,6 +15,7 @@
 
 #include "stereo_nav/core/parameters.h"
 #include "support/command.h"
+#include "support/ros_wait.h"
 #include "support/virtual_screen.h"
 #include "v4l2/checkerboard.h"
 
@@ -22,7 +23,9 @@ namespace stereo_nav::test {
 namespace {
 
 namespace fs = std::filesystem;
-std::string folder;
+std::string calibrationFolder() {
+  return ros::param::param<std::string>("~folder", "");
+}
 constexpr const char* kSaved = "/tmp/calibrationdata.tar.gz";  // camera_calibration's own choice
 
 /// Publishes the board, which wanders through the view, as two free-running cameras.
@@ -99,14 +102,13 @@ class User {
 
   /// False when it has not ended within `limit_s`.
   bool calibrateUntilEnd(NodeProcess& launched, double limit_s) {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(limit_s);
-    while (ros::ok() && !launched.ended()) {
-      if (ros::WallTime::now() > end) return false;
+    const auto endsMeanwhile = [&] {
+      if (launched.ended()) return true;
       board_.publishNext();
       pressWhatIsLit();
-      ros::WallDuration(0.3).sleep();
-    }
-    return ros::ok();
+      return false;
+    };
+    return spinUntil(endsMeanwhile, limit_s, 0.3);
   }
 
   bool pressed_calibrate = false, pressed_save = false, pressed_commit = false;
@@ -139,8 +141,8 @@ class CalibrateLaunch : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!VirtualScreen::available()) GTEST_SKIP() << "Xvfb or xdotool is not installed";
-    fs::remove_all(folder);  // of an earlier run
-    fs::create_directories(folder);
+    fs::remove_all(folder_);  // of an earlier run
+    fs::create_directories(folder_);
     // A calibration that the user has saved there is kept.
     if (fs::exists(kSaved)) fs::rename(kSaved, kept_);
   }
@@ -149,52 +151,51 @@ class CalibrateLaunch : public ::testing::Test {
     if (fs::exists(kept_)) fs::rename(kept_, kSaved);
   }
 
+  const std::string folder_ = calibrationFolder();
   const std::string kept_ = std::string(kSaved) + ".kept_by_test";
 };
 
 TEST_F(CalibrateLaunch, TheButtonsLeadToASavedCalibrationThatIsGood) {
-  const std::string config = folder + "/capture.yaml";
+  const std::string config = folder_ + "/capture.yaml";
   std::ofstream(config) << "width: 320\nheight: 240\n";
-  const VirtualScreen screen(folder);
+  const VirtualScreen screen(folder_);
   BoardPublisher board;
   NodeProcess launched({"/usr/bin/env", "roslaunch", LAUNCH_FOLDER "/calibrate.launch",
                         "left:=/dev/v4l/by-path/no-left-camera", "right:=/dev/v4l/by-path/no-right-camera",
                         "square:=0.051", "config:=" + config,
-                        "left_calibration:=file://" + folder + "/left.yaml",
-                        "right_calibration:=file://" + folder + "/right.yaml"});
+                        "left_calibration:=file://" + folder_ + "/left.yaml",
+                        "right_calibration:=file://" + folder_ + "/right.yaml"});
   for (const std::string side : {"left", "right"}) {
     EXPECT_TRUE(ros::service::waitForService("camera/" + side + "/set_camera_info", ros::Duration(60)));
   }
   // `_stamps:=true` of the command line is a bool there until the node has started its services and writes
   // back what it has read, which is text.
   std::string stamps;
-  for (int attempt = 0; attempt < 600 && !ros::param::get("stereo_capture/stamps", stamps); ++attempt) {
-    ros::WallDuration(0.1).sleep();
-  }
+  spinUntil([&stamps] { return ros::param::get("stereo_capture/stamps", stamps); }, kLongWait_s, 0.1);
   EXPECT_EQ(stamps, "true") << "the calibrator needs each image's own time";
 
   User user(screen, board);
   const bool ended = user.calibrateUntilEnd(launched, 300.0);
-  if (!ended) cv::imwrite(folder + "/screen.png", screen.pixels());
+  if (!ended) cv::imwrite(folder_ + "/screen.png", screen.pixels());
   ASSERT_TRUE(ended) << "CALIBRATE " << user.pressed_calibrate << ", SAVE " << user.pressed_save
                      << ", COMMIT " << user.pressed_commit << ", the calibrator listens: " << board.isHeard()
-                     << "; what was on the screen is in " << folder << "/screen.png";
+                     << "; what was on the screen is in " << folder_ << "/screen.png";
   EXPECT_TRUE(user.pressed_commit);
 
   // The capture node has saved what COMMIT sent.
-  const YAML::Node left = loadYamlFile(folder + "/left.yaml"), right = loadYamlFile(folder + "/right.yaml");
+  const YAML::Node left = loadYamlFile(folder_ + "/left.yaml"), right = loadYamlFile(folder_ + "/right.yaml");
   const double focal_length_px = left["camera_matrix"]["data"][0].as<double>();
   EXPECT_NEAR(focal_length_px, board.rig.focal_length_px, 0.03 * board.rig.focal_length_px);
   const auto P = right["projection_matrix"]["data"];
   EXPECT_NEAR(-P[3].as<double>() / P[0].as<double>(), board.rig.baseline_m, 0.03 * board.rig.baseline_m);
 
   // What SAVE wrote is what check_calibration takes.
-  fs::create_directories(folder + "/calibration");
-  ASSERT_EQ(runCommand(std::string("tar xzf ") + kSaved + " -C " + folder + "/calibration").status, 0);
-  const CommandResult checked = checkCalibration(folder + "/calibration --size 8x6 --square 0.051");
+  fs::create_directories(folder_ + "/calibration");
+  ASSERT_EQ(runCommand(std::string("tar xzf ") + kSaved + " -C " + folder_ + "/calibration").status, 0);
+  const CommandResult checked = checkCalibration(folder_ + "/calibration --size 8x6 --square 0.051");
   EXPECT_EQ(checked.status, 0) << checked.output;
   EXPECT_NE(checked.output.find("good: every figure"), std::string::npos) << checked.output;
-  const CommandResult saved = checkCalibration(folder + "/calibration --calibration " + folder);
+  const CommandResult saved = checkCalibration(folder_ + "/calibration --calibration " + folder_);
   EXPECT_EQ(saved.status, 0) << saved.output;
 }
 
@@ -234,6 +235,7 @@ TEST(CheckCalibrationLive, TopicsAreListenedToUntilThereAreEnoughViews) {
 
 TEST(CheckCalibrationLive, ARecordingIsMeasured) {
   const RunningBoard board;
+  const std::string folder = calibrationFolder();
   fs::create_directories(folder);
   const std::string bag = folder + "/board.bag";
   const CommandResult recorded =
@@ -253,11 +255,3 @@ TEST(CheckCalibrationLive, SilenceIsNamed) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "calibrate_launch_test");
-  stereo_nav::test::folder = std::string(argv[1]) + "/calibrate_launch";
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

@@ -1,68 +1,42 @@
 // The capture node as capture.launch starts it, without cameras: it stays up and says what is missing.
 // Started by capture.test.
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
-#include <functional>
-#include <map>
 #include <set>
+
+#include "rostest/diagnostics_probe.h"
+#include "support/ros_wait.h"
 
 namespace stereo_nav::test {
 namespace {
 
-constexpr double kLongWait_s = 60.0;  // for a loaded machine; nothing waits this long otherwise
-
-bool waitUntil(const std::function<bool()>& condition) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kLongWait_s);
-  while (ros::ok() && !condition()) {
-    if (ros::WallTime::now() > end) return false;
-    ros::spinOnce();
-    ros::WallDuration(0.01).sleep();
-  }
-  return ros::ok();
-}
-
-/// The newest of each of the states of a rig's capture node, by the end of their names.
-class Diagnostics {
+/// What the capture node of a rig says in its diagnostics.
+class CaptureDiagnostics {
  public:
-  explicit Diagnostics(const std::string& rig) : node_(rig + "/stereo_capture: ") {}
+  explicit CaptureDiagnostics(const std::string& rig) : node_(rig + "/stereo_capture: ") {}
 
-  std::string textOf(const std::string& part) const {
-    const auto found = states_.find(part);
-    if (found == states_.end()) return {};
-    std::string text = found->second.message;
-    for (const auto& value : found->second.values) text += "\n" + value.key + ": " + value.value;
-    return text;
-  }
+  std::string textOf(const std::string& part) const { return probe_.textOf(node_ + part); }
   bool says(const std::string& part, const std::string& text) const {
-    return textOf(part).find(text) != std::string::npos;
+    return probe_.says(node_ + part, text);
   }
 
  private:
-  void add(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
-    for (const auto& state : message->status) {
-      if (state.name.compare(0, node_.size(), node_) == 0) states_[state.name.substr(node_.size())] = state;
-    }
-  }
-
   const std::string node_;
-  ros::NodeHandle handle_;
-  ros::Subscriber subscriber_ = handle_.subscribe("/diagnostics", 100, &Diagnostics::add, this);
-  std::map<std::string, diagnostic_msgs::DiagnosticStatus> states_;
+  const DiagnosticsProbe probe_;
 };
 
 TEST(CaptureLaunch, TheNodeStaysUpAndNamesTheMissingCameras) {
-  const Diagnostics diagnostics("rig");
+  const CaptureDiagnostics diagnostics("rig");
   for (const std::string side : {"left", "right"}) {
     const std::string part = side == "left" ? "Left camera" : "Right camera";
-    EXPECT_TRUE(waitUntil([&] { return diagnostics.says(part, "no-" + side + "-camera"); }))
+    EXPECT_TRUE(spinUntil([&] { return diagnostics.says(part, "no-" + side + "-camera"); }))
         << diagnostics.textOf(part);
     EXPECT_TRUE(diagnostics.says(part, "no such device now; is the camera plugged in?"))
         << diagnostics.textOf(part);
   }
   // It goes on trying.
-  EXPECT_TRUE(waitUntil([&] {
+  EXPECT_TRUE(spinUntil([&] {
     const std::string text = diagnostics.textOf("Left camera");
     const auto at = text.find("Failed attempts: ");
     return at != std::string::npos && std::stoi(text.substr(at + 17)) >= 3;
@@ -78,7 +52,7 @@ TEST(CaptureLaunch, EveryTopicAndParameterIsUnderTheNamespace) {
     for (const auto& info : infos) topics.insert(info.name);
     return topics.count("/rig/camera/disparity") == 1;
   };
-  ASSERT_TRUE(waitUntil(advertised));
+  ASSERT_TRUE(spinUntil(advertised));
   for (const std::string side : {"left", "right"}) {
     for (const std::string topic : {"image_raw", "camera_info", "image_rect", "image_rect_color"}) {
       EXPECT_EQ(topics.count("/rig/camera/" + side + "/" + topic), 1u) << side << " " << topic;
@@ -96,41 +70,34 @@ TEST(CaptureLaunch, EveryTopicAndParameterIsUnderTheNamespace) {
 }
 
 TEST(CaptureLaunch, ACalibrationOfTheWrongSizeAndAMissingOneAreNamed) {
-  const Diagnostics diagnostics("rig");
-  EXPECT_TRUE(waitUntil([&] {
+  const CaptureDiagnostics diagnostics("rig");
+  EXPECT_TRUE(spinUntil([&] {
     return diagnostics.says("Left camera", "is for 320x240 images, the camera gives 640x480");
   })) << diagnostics.textOf("Left camera");
   EXPECT_TRUE(diagnostics.says("Left camera", "package://stereo_nav/config/thesis/left.yaml"));
-  EXPECT_TRUE(waitUntil([&] {
+  EXPECT_TRUE(spinUntil([&] {
     return diagnostics.says("Right camera",
                             "no calibration: package://stereo_nav/config/thesis/no_such_file.yaml");
   })) << diagnostics.textOf("Right camera");
 }
 
 TEST(CaptureLaunch, APortWithoutCameraIsNamed) {
-  const Diagnostics diagnostics("spare");
-  EXPECT_TRUE(waitUntil([&] {
+  const CaptureDiagnostics diagnostics("spare");
+  EXPECT_TRUE(spinUntil([&] {
     return diagnostics.says("Left camera", "usb-no-left-port: no camera at this port (connected: ");
   })) << diagnostics.textOf("Left camera");
 }
 
 TEST(CaptureLaunch, ACalibrationThatCannotBeReadAndAnImpossibleUrlAreNamed) {
-  const Diagnostics diagnostics("spare");
-  EXPECT_TRUE(waitUntil([&] {
+  const CaptureDiagnostics diagnostics("spare");
+  EXPECT_TRUE(spinUntil([&] {
     return diagnostics.says("Left camera",
                             "package://stereo_nav/config/capture.yaml is missing or cannot be read");
   })) << diagnostics.textOf("Left camera");
-  EXPECT_TRUE(waitUntil([&] {
+  EXPECT_TRUE(spinUntil([&] {
     return diagnostics.says("Right camera", "the calibration URL right.yaml is not of the form file:///path");
   })) << diagnostics.textOf("Right camera");
 }
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "capture_launch_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

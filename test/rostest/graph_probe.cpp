@@ -1,5 +1,6 @@
 #include "rostest/graph_probe.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stereo_nav::test {
@@ -23,25 +24,12 @@ GraphProbe::GraphProbe() {
   subscribers_.push_back(handle_.subscribe<rosgraph_msgs::Log>("/rosout", 1000, handler));
 }
 
-bool GraphProbe::waitUntil(const std::function<bool()>& condition, double timeout_s) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(timeout_s);
-  while (ros::ok() && !condition()) {
-    if (ros::WallTime::now() > end) return false;
-    ros::spinOnce();
-    ros::WallDuration(0.005).sleep();
-  }
-  return ros::ok();
-}
-
 bool GraphProbe::waitForLog(const std::string& part, double timeout_s) {
-  return waitUntil(
-      [&] {
-        for (const auto& text : log) {
-          if (text.find(part) != std::string::npos) return true;
-        }
-        return false;
-      },
-      timeout_s);
+  const auto isThere = [&] {
+    return std::any_of(log.begin(), log.end(),
+                       [&](const std::string& text) { return text.find(part) != std::string::npos; });
+  };
+  return spinUntil(isThere, timeout_s);
 }
 
 void GraphProbe::forget() {

@@ -4,23 +4,24 @@
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
 
-#include <functional>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "stereo_nav/VoStatus.h"
+#include "support/ros_wait.h"
 
 namespace stereo_nav::test {
+
+constexpr double kDegree = M_PI / 180.0;
 
 /// Listens to what the odometry publishes and says, in the thread of the test.
 class GraphProbe {
  public:
   GraphProbe();
 
-  /// Handles messages until `condition` holds; false when `timeout_s` of wall time have passed before.
-  bool waitUntil(const std::function<bool()>& condition, double timeout_s);
   /// Whether a log message holds `part` within the time.
-  bool waitForLog(const std::string& part, double timeout_s);
+  bool waitForLog(const std::string& part, double timeout_s = kLongWait_s);
   void forget();
 
   std::vector<nav_msgs::Odometry> odometry;

@@ -13,8 +13,7 @@
 namespace stereo_nav::test {
 namespace {
 
-constexpr double kLongWait_s = 200.0;  // the drive takes 30 s; the rest is for a loaded machine
-constexpr double kDegree = M_PI / 180.0;
+constexpr double kArena_s = 200.0;  // the drive takes 30 s; the rest is for a loaded machine
 
 double headingOf(const geometry_msgs::Quaternion& q) {
   return imu::heading({q.w, q.x, q.y, q.z}) / kDegree;
@@ -32,7 +31,7 @@ TEST(ImuArena, TheHeadingTurnsTheRightWayAndThePathIsRight) {
            !probe.odometry.empty() &&
            probe.ground_truth.back().header.stamp - probe.odometry.back().header.stamp < ros::Duration(0.25);
   };
-  ASSERT_TRUE(probe.waitUntil(arrived, kLongWait_s)) << probe.odometry.size() << " frames of odometry";
+  ASSERT_TRUE(spinUntil(arrived, kArena_s)) << probe.odometry.size() << " frames of odometry";
 
   const nav_msgs::Odometry& end = probe.odometry.back();
   const auto truth = std::find_if(probe.ground_truth.begin(), probe.ground_truth.end(), [&](const auto& t) {
@@ -53,10 +52,3 @@ TEST(ImuArena, TheHeadingTurnsTheRightWayAndThePathIsRight) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "imu_arena_test");
-  ros::NodeHandle handle;  // keeps the node alive between tests
-  return RUN_ALL_TESTS();
-}

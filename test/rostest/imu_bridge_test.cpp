@@ -8,10 +8,10 @@
 #include <std_srvs/Trigger.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 
+#include "rostest/graph_probe.h"
 #include "sensors/imu/module_angles.h"
 #include "stereo_nav/sensors/imu/calibration.h"
 #include "support/node_process.h"
@@ -19,9 +19,10 @@
 namespace stereo_nav::test {
 namespace {
 
-constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
-constexpr double kDegree = M_PI / 180.0;
-std::string ports_folder;
+/// Where imu_bridge.test has the names of the ports.
+std::string portsFolder() {
+  return ros::param::param<std::string>("~ports", "");
+}
 
 /// One bridge's topics.
 class Bridge {
@@ -76,16 +77,6 @@ class Bridge {
   ros::Subscriber data_, raw_, quaternion_, chatter_, diagnostics_;
 };
 
-bool waitUntil(const std::function<bool()>& condition) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kLongWait_s);
-  while (ros::ok() && !condition()) {
-    if (ros::WallTime::now() > end) return false;
-    ros::spinOnce();
-    ros::WallDuration(0.005).sleep();
-  }
-  return ros::ok();
-}
-
 Eigen::Quaterniond orientationOf(const sensor_msgs::Imu& message) {
   const auto& q = message.orientation;
   return {q.w, q.x, q.y, q.z};
@@ -93,7 +84,7 @@ Eigen::Quaterniond orientationOf(const sensor_msgs::Imu& message) {
 
 TEST(ImuBridge, PublishesTheWorkedExampleInEveryForm) {
   Bridge bridge("clean");
-  ASSERT_TRUE(waitUntil([&] { return bridge.data.size() > 300 && bridge.quaternions.size() > 300; }));
+  ASSERT_TRUE(spinUntil([&] { return bridge.data.size() > 300 && bridge.quaternions.size() > 300; }));
   for (const auto& q : bridge.quaternions) {
     EXPECT_NEAR(q.x, -0.0645, 1e-4);
     EXPECT_NEAR(q.y, -0.0729, 1e-4);
@@ -110,19 +101,19 @@ TEST(ImuBridge, PublishesTheWorkedExampleInEveryForm) {
   for (std::size_t i = 1; i < bridge.data.size(); ++i) {
     ASSERT_GT(bridge.data[i].header.stamp, bridge.data[i - 1].header.stamp);
   }
-  ASSERT_TRUE(waitUntil([&] { return !bridge.texts.empty(); }));
+  ASSERT_TRUE(spinUntil([&] { return !bridge.texts.empty(); }));
   EXPECT_NE(bridge.texts.back().find("yaw: 30"), std::string::npos) << bridge.texts.back();
-  ASSERT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("streaming"); }));
-  ASSERT_TRUE(waitUntil([&] { return bridge.lastValue("rate (Hz)") > 0.0; }));
+  ASSERT_TRUE(spinUntil([&] { return bridge.saidInDiagnostics("streaming"); }));
+  ASSERT_TRUE(spinUntil([&] { return bridge.lastValue("rate (Hz)") > 0.0; }));
   EXPECT_NEAR(bridge.lastValue("rate (Hz)"), 100.0, 5.0);
   EXPECT_EQ(bridge.lastValue("bad frames"), 0.0);
 }
 
 TEST(ImuBridge, ResetsTheYawAndRefusesToCalibrateTheAngleModule) {
   Bridge bridge("clean");
-  ASSERT_TRUE(waitUntil([&] { return !bridge.data.empty(); }));
+  ASSERT_TRUE(spinUntil([&] { return !bridge.data.empty(); }));
   EXPECT_TRUE(bridge.call("imu/reset_yaw").success);
-  ASSERT_TRUE(waitUntil([&] { return std::abs(imu::heading(orientationOf(bridge.data.back()))) < 1e-6; }));
+  ASSERT_TRUE(spinUntil([&] { return std::abs(imu::heading(orientationOf(bridge.data.back()))) < 1e-6; }));
   const auto refusal = bridge.call("imu/calibrate_gyro");
   EXPECT_FALSE(refusal.success);
   EXPECT_NE(refusal.message.find("angles"), std::string::npos);
@@ -130,7 +121,7 @@ TEST(ImuBridge, ResetsTheYawAndRefusesToCalibrateTheAngleModule) {
 
 TEST(ImuBridge, TurnsTheRightWayAcrossTheWrapOnADamagedLine) {
   Bridge bridge("turning");
-  ASSERT_TRUE(waitUntil([&] { return bridge.data.size() > 1000; }));
+  ASSERT_TRUE(spinUntil([&] { return bridge.data.size() > 1000; }));
   double turned_deg = 0.0;
   for (std::size_t i = 1; i < bridge.data.size(); ++i) {
     const double step =
@@ -145,45 +136,45 @@ TEST(ImuBridge, TurnsTheRightWayAcrossTheWrapOnADamagedLine) {
   for (const auto& message : bridge.data)
     rate += message.angular_velocity.z / static_cast<double>(bridge.data.size());
   EXPECT_NEAR(rate / kDegree, -20.0, 1.0);
-  ASSERT_TRUE(waitUntil([&] { return !bridge.diagnostics.empty(); }));
+  ASSERT_TRUE(spinUntil([&] { return !bridge.diagnostics.empty(); }));
   EXPECT_GT(bridge.lastValue("bad frames"), 0.0);
 }
 
 TEST(ImuBridge, FindsAModuleAgainUnderAnotherIndex) {
   Bridge bridge("replugged");
   ASSERT_TRUE(
-      waitUntil([&] { return !bridge.diagnostics.empty() && bridge.lastValue("connections") >= 2.0; }));
+      spinUntil([&] { return !bridge.diagnostics.empty() && bridge.lastValue("connections") >= 2.0; }));
   bridge.data.clear();
-  EXPECT_TRUE(waitUntil([&] { return bridge.data.size() > 100; }));
+  EXPECT_TRUE(spinUntil([&] { return bridge.data.size() > 100; }));
 }
 
 TEST(ImuBridge, SaysThatAModuleIsSilentAndGoesOnWithIt) {
   Bridge bridge("pausing");
-  ASSERT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("pausing does not exist"); }));
+  ASSERT_TRUE(spinUntil([&] { return bridge.saidInDiagnostics("pausing does not exist"); }));
   const NodeProcess module({IMU_EMULATOR, "--wait-for-reader", "--pause-at", "2", "--pause-for", "4",
-                            "--link", ports_folder + "/pausing"});
-  EXPECT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("no bytes for "); }));
+                            "--link", portsFolder() + "/pausing"});
+  EXPECT_TRUE(spinUntil([&] { return bridge.saidInDiagnostics("no bytes for "); }));
   bridge.data.clear();
   bridge.diagnostics.clear();
-  EXPECT_TRUE(waitUntil([&] { return bridge.data.size() > 100 && bridge.saidInDiagnostics("streaming"); }));
+  EXPECT_TRUE(spinUntil([&] { return bridge.data.size() > 100 && bridge.saidInDiagnostics("streaming"); }));
   EXPECT_EQ(bridge.lastValue("connections"), 1.0);
   EXPECT_EQ(bridge.diagnostics.back().level, diagnostic_msgs::DiagnosticStatus::OK);
 }
 
 TEST(ImuBridge, WrongBaudRateIsNamed) {
   Bridge bridge("wrong_baud");
-  EXPECT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("check the baud rate (57600 here)"); }));
+  EXPECT_TRUE(spinUntil([&] { return bridge.saidInDiagnostics("check the baud rate (57600 here)"); }));
   EXPECT_TRUE(bridge.data.empty());
 }
 
 TEST(ImuBridge, AMissingPortIsNamed) {
   Bridge bridge("missing");
-  EXPECT_TRUE(waitUntil([&] { return bridge.saidInDiagnostics("nothing_here does not exist"); }));
+  EXPECT_TRUE(spinUntil([&] { return bridge.saidInDiagnostics("nothing_here does not exist"); }));
 }
 
 TEST(ImuBridge, CalibratesARawModuleAndStoresIt) {
   Bridge bridge("raw");
-  ASSERT_TRUE(waitUntil([&] { return bridge.data.size() > 100 && bridge.data_raw.size() > 100; }));
+  ASSERT_TRUE(spinUntil([&] { return bridge.data.size() > 100 && bridge.data_raw.size() > 100; }));
   const sensor_msgs::Imu& raw = bridge.data_raw.back();
   EXPECT_EQ(raw.orientation_covariance[0], -1.0);
   EXPECT_NEAR(raw.angular_velocity.z, 0.03, 0.01);
@@ -192,13 +183,13 @@ TEST(ImuBridge, CalibratesARawModuleAndStoresIt) {
 
   const auto answer = bridge.call("imu/calibrate_gyro");
   ASSERT_TRUE(answer.success) << answer.message;
-  const auto stored = imu::loadCalibration(ports_folder + "/calibration.yaml");
+  const auto stored = imu::loadCalibration(portsFolder() + "/calibration.yaml");
   EXPECT_LT((stored.gyroscope_bias.value - Eigen::Vector3d(0.02, -0.01, 0.03)).norm(), 5e-4);
 
   ros::WallDuration(0.5).sleep();
   ros::spinOnce();
   bridge.data.clear();
-  ASSERT_TRUE(waitUntil([&] { return bridge.data.size() > 400; }));
+  ASSERT_TRUE(spinUntil([&] { return bridge.data.size() > 400; }));
   double mean = 0.0;
   for (const auto& message : bridge.data)
     mean += message.angular_velocity.z / static_cast<double>(bridge.data.size());
@@ -210,11 +201,3 @@ TEST(ImuBridge, CalibratesARawModuleAndStoresIt) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "imu_bridge_test");
-  stereo_nav::test::ports_folder = argv[1];
-  ros::NodeHandle handle;  // keeps the node alive between tests
-  return RUN_ALL_TESTS();
-}

@@ -13,6 +13,7 @@
 #include "stereo_nav/sensors/imu/calibration.h"
 #include "support/command.h"
 #include "support/node_process.h"
+#include "support/ros_wait.h"
 
 namespace stereo_nav::test {
 namespace {
@@ -54,9 +55,7 @@ void writeTrajectory(const std::string& path, Quaterniond (*attitude)(double), d
   std::ofstream(path) << toTum(trajectory);
 }
 
-std::string folder;
-
-std::unique_ptr<NodeProcess> startModule(const std::string& motion) {
+std::unique_ptr<NodeProcess> startModule(const std::string& folder, const std::string& motion) {
   return std::make_unique<NodeProcess>(std::vector<std::string>{
       "/bin/sh", "-c",
       "exec " IMU_EMULATOR " --protocol raw --rate 200 --baud 1000000 --wait-for-reader --link " + folder +
@@ -64,12 +63,13 @@ std::unique_ptr<NodeProcess> startModule(const std::string& motion) {
 }
 
 TEST(ImuCalibration, WhatCalibrateImuFindsTheBridgeTakesOff) {
+  const std::string folder = ros::param::param<std::string>("~folder", "");
   writeTrajectory(folder + "/turns.tum", handTurns, kRest_s + 3 * kTurn_s);
   writeTrajectory(folder + "/rest.tum", tiltedAtRest, 1.0);
   const std::string file = folder + "/calibration.yaml";
   std::filesystem::remove(file);
 
-  auto module = startModule("turns.tum");
+  auto module = startModule(folder, "turns.tum");
   // The module begins with its rest when the program opens the port.
   const auto result =
       runCommand(CALIBRATE_IMU " --port " + folder + "/module --rest 3 --turns 16.5 --output " + file);
@@ -82,18 +82,14 @@ TEST(ImuCalibration, WhatCalibrateImuFindsTheBridgeTakesOff) {
   EXPECT_LT((found.accelerometer_scale.value.cwiseProduct(kGain) - Vector3d::Ones()).norm(), 2e-3)
       << found.accelerometer_scale.value.transpose();
 
-  module = startModule("rest.tum");
+  module = startModule(folder, "rest.tum");
   std::vector<sensor_msgs::Imu> data;
   ros::NodeHandle handle;
   const ros::Subscriber subscriber = handle.subscribe<sensor_msgs::Imu>(
       "imu/data", 10000, [&](const sensor_msgs::Imu::ConstPtr& message) { data.push_back(*message); });
   const NodeProcess bridge({IMU_BRIDGE, "_port:=" + folder + "/module", "_protocol:=raw",
                             "_baud_rate:=1000000", "_calibration_file:=" + file});
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(90.0);
-  while (data.size() < 400 && ros::WallTime::now() < end) {
-    ros::spinOnce();
-    ros::WallDuration(0.01).sleep();
-  }
+  spinUntil([&data] { return data.size() >= 400; });
   ASSERT_GE(data.size(), 400u);
   Vector3d rate = Vector3d::Zero(), acceleration = Vector3d::Zero();
   for (const auto& message : data) {
@@ -112,11 +108,3 @@ TEST(ImuCalibration, WhatCalibrateImuFindsTheBridgeTakesOff) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "imu_calibration_chain_test", ros::init_options::NoSigintHandler);
-  stereo_nav::test::folder = argv[1];
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

@@ -13,11 +13,10 @@
 #include "ros/imu_bridge_params.h"
 #include "rostest/reconfigure.h"
 #include "support/command.h"
+#include "support/wait.h"
 
 namespace stereo_nav::test {
 namespace {
-
-constexpr double kLongWait_s = 60.0;  // for a loaded machine; nothing waits this long otherwise
 
 /// Stands for a node; its callback takes what comes.
 template <class Params>
@@ -26,10 +25,13 @@ struct Node {
       : live(ros::NodeHandle(name), params, [this](const Params& changed) {
           received = changed;
           ++changes;
-        }) {}
+        }) {
+    spinner.start();
+  }
   Params received;
   int changes = 0;
   ros_io::LiveParameters<Params> live;
+  ros::AsyncSpinner spinner{1};  ///< the requests come from the thread of the test
 };
 
 template <class Params>
@@ -172,12 +174,3 @@ TEST(LiveParameter, TheCommandLineClientWorks) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "live_parameters_test");
-  const ros::NodeHandle keeps_ros_running;
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -10,11 +10,10 @@
 #include "support/command.h"
 #include "support/foreign_program.h"
 #include "support/own_master.h"
+#include "support/wait.h"
 
 namespace stereo_nav::test {
 namespace {
-
-constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
 
 const std::string kRos = "PATH=/usr/bin:$PATH ";
 // By its path: under rostest the package is found both in its source folder and in the devel space.
@@ -68,7 +67,7 @@ TEST(Operation, AMasterThatIsReplacedAtOnceIsNoticedToo) {
   ASSERT_TRUE(comes("/odom")) << robot.output();
   master.crash();
   master.start();
-  EXPECT_TRUE(robot.waitForOutput("has gone: ", kLongWait_s)) << robot.output();
+  EXPECT_TRUE(robot.waitForOutput("has gone: ")) << robot.output();
   EXPECT_TRUE(comes("/odom")) << robot.output();
   robot.signal(SIGINT);
   EXPECT_EQ(robot.waitFor(kLongWait_s), 0) << robot.output();
@@ -79,7 +78,7 @@ TEST(Operation, NodesStartInAnyOrder) {
   // The odometry before the master, the manager that it is to be loaded into, the cameras and the transforms.
   BackgroundCommand odometry(
       kRos + "exec rosrun nodelet nodelet load stereo_nav/visual_odometry simulator __name:=visual_odometry");
-  ASSERT_TRUE(odometry.waitForOutput("Failed to contact master", kLongWait_s)) << odometry.output();
+  ASSERT_TRUE(odometry.waitForOutput("Failed to contact master")) << odometry.output();
   master.start();
   BackgroundCommand robot(kRobot + "odometry:=false");
   EXPECT_TRUE(comes("/odom")) << odometry.output() << robot.output();
@@ -96,16 +95,16 @@ TEST_P(Rviz, ShowsAllOfTheOdometry) {
   const OwnMaster master;
   // Xvfb finds a free display itself and prints its number.
   const BackgroundCommand screen("exec Xvfb -displayfd 1 -screen 0 1000x700x24");
-  ASSERT_TRUE(screen.waitForOutput("\n", kLongWait_s)) << "Xvfb does not start";
+  ASSERT_TRUE(screen.waitForOutput("\n")) << "Xvfb does not start";
   ForeignProgram rviz("rviz", "export DISPLAY=:" + std::to_string(std::atoi(screen.output().c_str())) +
                                   " LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1; " + kRos +
                                   "exec roslaunch " LAUNCH_FOLDER "/visualise.launch view:=" + GetParam());
   for (const std::string topic : {"/path", "/odom", "/vo/features", "/vo/debug_image", "/vo/disparity_view",
                                   "/ground_truth/odom", "/tf", "/tf_static"}) {
-    const auto is_subscribed = [&topic] {
+    const auto isSubscribed = [&topic] {
       return runCommand(kRos + "rostopic info " + topic).output.find("* /rviz") != std::string::npos;
     };
-    EXPECT_TRUE(rviz.comesUp(is_subscribed, kLongWait_s)) << topic << "\n" << rviz.command().output();
+    EXPECT_TRUE(rviz.comesUp(isSubscribed, kLongWait_s)) << topic << "\n" << rviz.command().output();
   }
   rviz.command().signal(SIGINT);
   EXPECT_EQ(rviz.command().waitFor(kLongWait_s), 0) << rviz.command().output();
@@ -144,8 +143,3 @@ TEST(Operation, AMistakeInTheRigFileIsNamed) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

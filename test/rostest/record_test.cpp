@@ -17,14 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLongWait_s = 180.0;  // for a loaded machine; nothing waits this long otherwise
-
-std::string folder;
+constexpr double kRecording_s = 180.0;  // two bags; the rest is for a loaded machine
 
 std::vector<fs::path> closedBags() {
   std::vector<fs::path> bags;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
+  for (const auto& entry : fs::directory_iterator(ros::param::param<std::string>("~folder", ""), error)) {
     if (entry.path().extension() == ".bag") bags.push_back(entry.path());
   }
   std::sort(bags.begin(), bags.end());
@@ -34,16 +32,15 @@ std::vector<fs::path> closedBags() {
 TEST(Record, TheRateAndWhatIsLeftOfTheDiskAreTold) {
   const DiagnosticsProbe diagnostics;
   GraphProbe probe;
-  EXPECT_TRUE(
-      probe.waitUntil([&] { return diagnostics.says("recorder: recording", " MB/s, "); }, kLongWait_s))
+  EXPECT_TRUE(spinUntil([&] { return diagnostics.says("recorder: recording", " MB/s, "); }, kRecording_s))
       << diagnostics.textOf("recorder: recording");
   EXPECT_TRUE(diagnostics.says("recorder: recording", "the disk lasts "));
-  EXPECT_TRUE(probe.waitForLog("recording ", kLongWait_s));
+  EXPECT_TRUE(probe.waitForLog("recording ", kRecording_s));
 }
 
 TEST(Record, AClosedBagHoldsWhatTheOdometryNeeds) {
   GraphProbe probe;
-  ASSERT_TRUE(probe.waitUntil([] { return closedBags().size() >= 2; }, kLongWait_s)) << folder;
+  ASSERT_TRUE(spinUntil([] { return closedBags().size() >= 2; }, kRecording_s));
   // The second one shows that what was sent once, tf_static, is in each.
   const rosbag::Bag bag(closedBags()[1].string());
   std::map<std::string, int> counts;
@@ -64,11 +61,3 @@ TEST(Record, AClosedBagHoldsWhatTheOdometryNeeds) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "record_test");
-  stereo_nav::test::folder = argc > 1 ? argv[1] : "";
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

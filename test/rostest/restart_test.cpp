@@ -24,13 +24,13 @@ TEST_P(Restart, TheRestRecovers) {
   const auto tracking = [&probe] {
     return !probe.status.empty() && probe.status.back().state == VoStatus::TRACKING;
   };
-  ASSERT_TRUE(probe.waitUntil(tracking, kRecovery_s));
+  ASSERT_TRUE(spinUntil(tracking, kRecovery_s));
   const pid_t before = processOf(GetParam());
   ASSERT_GT(before, 0) << GetParam();
   ASSERT_EQ(kill(before, SIGKILL), 0);
 
   pid_t after = before;
-  ASSERT_TRUE(probe.waitUntil(
+  ASSERT_TRUE(spinUntil(
       [&] {
         after = processOf(GetParam());
         return after > 0 && after != before;
@@ -39,7 +39,7 @@ TEST_P(Restart, TheRestRecovers) {
       << GetParam() << " was not started again";
   probe.forget();
   // What was on its way before may still come; twenty frames are new ones.
-  EXPECT_TRUE(probe.waitUntil([&] { return probe.odometry.size() >= 20 && tracking(); }, kRecovery_s));
+  EXPECT_TRUE(spinUntil([&] { return probe.odometry.size() >= 20 && tracking(); }, kRecovery_s));
 }
 
 INSTANTIATE_TEST_SUITE_P(EachProcess, Restart,
@@ -48,10 +48,3 @@ INSTANTIATE_TEST_SUITE_P(EachProcess, Restart,
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "restart_test");
-  ros::NodeHandle handle;  // keeps the node alive between tests
-  return RUN_ALL_TESTS();
-}

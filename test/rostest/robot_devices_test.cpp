@@ -8,19 +8,16 @@
 #include "ros/capture_setup.h"
 #include "ros/imu_bridge_params.h"
 #include "rostest/diagnostics_probe.h"
-#include "rostest/graph_probe.h"
 #include "rostest/reconfigure.h"
+#include "support/ros_wait.h"
 
 namespace stereo_nav::test {
 namespace {
 
-constexpr double kLongWait_s = 60.0;  // for a loaded machine; nothing waits this long otherwise
-
 TEST(RobotDevices, EachMissingDeviceIsNamed) {
   const DiagnosticsProbe diagnostics;
-  GraphProbe probe;
   const auto says = [&](const std::string& name, const std::string& text) {
-    return probe.waitUntil([&] { return diagnostics.says(name, text); }, kLongWait_s);
+    return spinUntil([&] { return diagnostics.says(name, text); });
   };
   EXPECT_TRUE(says("stereo_capture: Left camera", "no-left-camera")) << diagnostics.names();
   EXPECT_TRUE(says("stereo_capture: Right camera", "no-right-camera"));
@@ -34,10 +31,9 @@ TEST(RobotDevices, EachMissingDeviceIsNamed) {
 
 /// The rig file overrides config/; a parameter that neither of them sets has its default.
 TEST(RobotDevices, TheRigFileGoesBeforeTheConfiguration) {
-  GraphProbe probe;
   const auto become = [&](const std::string& name, double expected) {
     double value = 0.0;
-    return probe.waitUntil([&] { return ros::param::get(name, value) && value == expected; }, kLongWait_s);
+    return spinUntil([&] { return ros::param::get(name, value) && value == expected; });
   };
   EXPECT_TRUE(become("/stereo_capture/width", 320)) << "rig";
   EXPECT_TRUE(become("/stereo_capture/rate_hz", 15.0)) << "rig";
@@ -84,10 +80,3 @@ TEST(RobotDevices, LiveParametersCanBeSetOnTheRunningNodes) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "robot_devices_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

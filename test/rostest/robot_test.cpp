@@ -1,6 +1,5 @@
 // robot.launch with simulated devices: odometry near the truth, the rig file's mounting in tf, diagnostics of
 // every node, parameters that change live, and roswtf's opinion. Started by robot.test.
-#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/package.h>
 #include <ros/ros.h>
@@ -13,12 +12,11 @@
 #include "core/rig_file.h"
 #include "rostest/diagnostics_probe.h"
 #include "rostest/graph_probe.h"
+#include "rostest/reconfigure.h"
 #include "support/command.h"
 
 namespace stereo_nav::test {
 namespace {
-
-constexpr double kLongWait_s = 90.0;  // for a loaded machine; nothing waits this long otherwise
 
 /// Difference between the motion of the odometry and the true motion, from the first to the last pose for
 /// which there is a truth.
@@ -46,7 +44,7 @@ TEST(Robot, OdometryFollowsTheTruth) {
   GraphProbe probe;
   double way_m = 0.0;
   std::optional<double> error_m;
-  ASSERT_TRUE(probe.waitUntil(
+  ASSERT_TRUE(spinUntil(
       [&] {
         error_m = motionError(probe, way_m);
         return error_m && way_m > 0.5;
@@ -74,19 +72,18 @@ TEST(Robot, EveryNodeHasDiagnosticsAndTheAggregatorSortsThem) {
   GraphProbe probe;
   for (const std::string name :
        {"simulator: simulated sensors", "rig_transforms: mounting", "visual_odometry: odometry"}) {
-    EXPECT_TRUE(probe.waitUntil([&] { return diagnostics.has(name); }, kLongWait_s)) << diagnostics.names();
+    EXPECT_TRUE(spinUntil([&] { return diagnostics.has(name); })) << diagnostics.names();
   }
+  EXPECT_TRUE(spinUntil([&] { return diagnostics.levelOf("rig_transforms: mounting") == 0; }));
   EXPECT_TRUE(
-      probe.waitUntil([&] { return diagnostics.levelOf("rig_transforms: mounting") == 0; }, kLongWait_s));
-  EXPECT_TRUE(probe.waitUntil(
-      [&] { return diagnostics.says("visual_odometry: odometry", "latency median [ms]"); }, kLongWait_s));
+      spinUntil([&] { return diagnostics.says("visual_odometry: odometry", "latency median [ms]"); }));
   for (const std::string name :
        {"/stereo_nav/Cameras/simulator: simulated sensors", "/stereo_nav/Mounting/rig_transforms: mounting",
         "/stereo_nav/Odometry/visual_odometry: odometry"}) {
-    EXPECT_TRUE(probe.waitUntil([&] { return aggregated.has(name); }, kLongWait_s)) << aggregated.names();
+    EXPECT_TRUE(spinUntil([&] { return aggregated.has(name); })) << aggregated.names();
   }
   // A slow machine is a warning; what does not run here, IMU bridge and recorder, is no fault.
-  EXPECT_TRUE(probe.waitUntil(
+  EXPECT_TRUE(spinUntil(
       [&] { return aggregated.levelOf("/stereo_nav") == 0 || aggregated.levelOf("/stereo_nav") == 1; },
       kLongWait_s))
       << aggregated.levelOf("/stereo_nav") << "\n"
@@ -94,54 +91,47 @@ TEST(Robot, EveryNodeHasDiagnosticsAndTheAggregatorSortsThem) {
   EXPECT_FALSE(aggregated.has("/stereo_nav/IMU"));
 }
 
-bool publishesTf(GraphProbe& probe, double seconds) {
-  bool seen = false;
-  ros::NodeHandle handle;
-  const boost::function<void(const tf2_msgs::TFMessage::ConstPtr&)> look =
-      [&seen](const tf2_msgs::TFMessage::ConstPtr& message) {
-        for (const auto& transform : message->transforms) seen = seen || transform.header.frame_id == "odom";
-      };
-  const auto subscriber = handle.subscribe<tf2_msgs::TFMessage>("/tf", 100, look);
-  probe.waitUntil([&] { return seen; }, seconds);
-  return seen;
-}
+/// Whether the odometry's transform has come since this was made.
+class TfProbe {
+ public:
+  bool isPublished() const { return seen_; }
+  void forget() { seen_ = false; }
 
-/// The values of the node after the request; nothing if it does not answer.
-std::optional<dynamic_reconfigure::Config> reconfigure(const std::string& node, const std::string& flag,
-                                                       bool on) {
-  dynamic_reconfigure::Reconfigure service;
-  service.request.config.bools.resize(1);
-  service.request.config.bools[0].name = flag;
-  service.request.config.bools[0].value = static_cast<std::uint8_t>(on);
-  ros::service::waitForService(node + "/set_parameters", ros::Duration(kLongWait_s));
-  if (!ros::service::call(node + "/set_parameters", service)) return std::nullopt;
-  return service.response.config;
-}
+ private:
+  void look(const tf2_msgs::TFMessage::ConstPtr& message) {
+    for (const auto& transform : message->transforms) seen_ = seen_ || transform.header.frame_id == "odom";
+  }
+
+  ros::NodeHandle handle_;
+  ros::Subscriber subscriber_ = handle_.subscribe("/tf", 100, &TfProbe::look, this);
+  bool seen_ = false;
+};
 
 TEST(Robot, TfIsSwitchedOffAndOnLive) {
   GraphProbe probe;
-  ASSERT_TRUE(publishesTf(probe, kLongWait_s));
-  ASSERT_TRUE(reconfigure("/visual_odometry", "publish_tf", false));
-  publishesTf(probe, 0.5);  // what was on its way
-  probe.forget();
-  EXPECT_FALSE(publishesTf(probe, 2.0));
-  EXPECT_TRUE(probe.waitUntil([&] { return !probe.odometry.empty(); }, kLongWait_s)) << "odometry goes on";
-  ASSERT_TRUE(reconfigure("/visual_odometry", "publish_tf", true));
-  EXPECT_TRUE(publishesTf(probe, kLongWait_s));
+  TfProbe tf;
+  const auto posesCome = [&probe](std::size_t count) {
+    probe.forget();
+    return spinUntil([&] { return probe.odometry.size() >= count; });
+  };
+  ASSERT_TRUE(spinUntil([&] { return tf.isPublished(); }));
+  ASSERT_TRUE(reconfigure("/visual_odometry", {{"publish_tf", false}}));
+  EXPECT_TRUE(posesCome(4));  // what was on its way
+  tf.forget();
+  EXPECT_TRUE(posesCome(12)) << "odometry goes on";
+  EXPECT_FALSE(tf.isPublished());
+  ASSERT_TRUE(reconfigure("/visual_odometry", {{"publish_tf", true}}));
+  EXPECT_TRUE(spinUntil([&] { return tf.isPublished(); }));
 }
 
 TEST(Robot, UncertaintyIsChangedLive) {
   GraphProbe probe;
-  ASSERT_TRUE(probe.waitUntil([&] { return !probe.odometry.empty(); }, kLongWait_s));
-  dynamic_reconfigure::Reconfigure service;
-  service.request.config.doubles.resize(1);
-  service.request.config.doubles[0].name = "min_translation_sigma_m";
-  service.request.config.doubles[0].value = 0.5;
-  ASSERT_TRUE(ros::service::call("/visual_odometry/uncertainty/set_parameters", service));
-  EXPECT_TRUE(probe.waitUntil([&] { return probe.odometry.back().twist.covariance[0] > 0.2; }, kLongWait_s))
+  ASSERT_TRUE(spinUntil([&] { return !probe.odometry.empty(); }));
+  const std::string uncertainty = "/visual_odometry/uncertainty";
+  ASSERT_TRUE(reconfigure(uncertainty, {{"min_translation_sigma_m", 0.5}}));
+  EXPECT_TRUE(spinUntil([&] { return probe.odometry.back().twist.covariance[0] > 0.2; }))
       << probe.odometry.back().twist.covariance[0];
-  service.request.config.doubles[0].value = 0.001;
-  ASSERT_TRUE(ros::service::call("/visual_odometry/uncertainty/set_parameters", service));
+  ASSERT_TRUE(reconfigure(uncertainty, {{"min_translation_sigma_m", 0.001}}));
 }
 
 /// The static checks of roswtf look at the computer's ROS installation; they may find anything there, but
@@ -158,10 +148,3 @@ TEST(Robot, RoswtfFindsNothingOfOurs) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "robot_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

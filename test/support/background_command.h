@@ -4,13 +4,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
-#include <thread>
+
+#include "support/wait.h"
 
 namespace stereo_nav::test {
 
@@ -52,15 +52,14 @@ class BackgroundCommand {
   }
   /// The exit status; nothing when the command has not ended within the time.
   std::optional<int> waitFor(double seconds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    while (!status_ && std::chrono::steady_clock::now() < end) {
+    const auto hasEnded = [this] {
       int status = 0;
-      if (waitpid(pid_, &status, WNOHANG) == pid_) {
+      if (!status_ && waitpid(pid_, &status, WNOHANG) == pid_) {
         keep(status);
-        break;
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+      return status_.has_value();
+    };
+    waitUntil(hasEnded, seconds);
     return status_;
   }
 
@@ -81,13 +80,8 @@ class BackgroundCommand {
     return found;
   }
   /// Whether the command prints `text` at least `times` times within the time.
-  bool waitForOutput(const std::string& text, double seconds, int times = 1) const {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    while (count(text) < times) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return true;
+  bool waitForOutput(const std::string& text, double seconds = kLongWait_s, int times = 1) const {
+    return waitUntil([&] { return count(text) >= times; }, seconds, 0.05);
   }
 
  private:

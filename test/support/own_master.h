@@ -11,6 +11,7 @@
 #include <string>
 
 #include "support/background_command.h"
+#include "support/wait.h"
 
 namespace stereo_nav::test {
 
@@ -42,8 +43,9 @@ class OwnMaster {
   /// Starts the master and returns when it answers.
   void start() {
     process_.emplace("PATH=/usr/bin:$PATH exec rosmaster --core -p " + std::to_string(port_));
-    while (!answers()) {
-      if (process_->waitFor(0.05)) throw std::runtime_error("rosmaster has ended: " + process_->output());
+    const auto answersOrHasEnded = [this] { return answers() || process_->waitFor(0.0); };
+    if (!waitUntil(answersOrHasEnded) || process_->waitFor(0.0)) {
+      throw std::runtime_error("rosmaster does not answer: " + process_->output());
     }
   }
   /// Ends the master at once, as in a crash.

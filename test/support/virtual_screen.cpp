@@ -1,16 +1,15 @@
 #include "support/virtual_screen.h"
 
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 #include "support/command.h"
+#include "support/wait.h"
 
 namespace stereo_nav::test {
 namespace {
@@ -43,16 +42,13 @@ VirtualScreen::VirtualScreen(const std::string& folder)
                std::string("exec ") + kServer +
                    " -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp -fbdir '" + folder + "' >'" + folder +
                    "/display' 2>'" + folder + "/xvfb.log'"}) {
-  for (int attempt = 0; attempt < 600; ++attempt) {
+  std::string number;
+  const auto hasNumber = [&] {
     std::ifstream file(folder + "/display");
-    std::string number;
-    if (std::getline(file, number) && !number.empty() && !file.eof()) {
-      setenv("DISPLAY", (":" + number).c_str(), 1);
-      return;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  throw std::runtime_error("Xvfb did not start; see " + folder + "/xvfb.log");
+    return std::getline(file, number) && !number.empty() && !file.eof();
+  };
+  if (!waitUntil(hasNumber)) throw std::runtime_error("Xvfb did not start; see " + folder + "/xvfb.log");
+  setenv("DISPLAY", (":" + number).c_str(), 1);
 }
 
 cv::Mat VirtualScreen::pixels() const {

@@ -127,7 +127,7 @@ TEST_F(Loopback, ACameraThatStopsSendingComesBackWithItsFrames) {
   start(PixelFormat::kYuyv);
   ASSERT_TRUE(rig_->pairsCome(5));
   right_->stop();
-  ASSERT_TRUE(StereoRig::comesTrue([this] { return rig_->right().stalls >= 1; }));
+  ASSERT_TRUE(test::waitUntil([this] { return rig_->right().stalls >= 1; }));
   const auto left_frames = rig_->left().frames;
   right_.reset();
   right_ = std::make_unique<Feeder>(kRight, V4L2_PIX_FMT_YUYV, kWidth, kHeight);

@@ -163,10 +163,3 @@ TEST(StereoCaptureNode, ReconfiguresAndSurvivesADisconnection) {
 
 }  // namespace
 }  // namespace stereo_nav::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "v4l2_node_test", ros::init_options::NoSigintHandler);
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

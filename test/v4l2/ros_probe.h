@@ -2,14 +2,12 @@
 
 #include <ros/ros.h>
 
-#include <chrono>
-#include <functional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "sensors/camera/clock_mapping.h"
 #include "sensors/camera/kernel.h"
+#include "support/ros_wait.h"
 
 namespace stereo_nav::test {
 
@@ -28,17 +26,10 @@ class Topic {
   ros::Subscriber subscriber_;
 };
 
-/// Handles messages until the condition is true; false after a generous time, since on a busy host the
-/// machine takes a minute to load a node's libraries.
-inline bool comesTrue(const std::function<bool()>& condition,
-                      std::chrono::seconds patience = std::chrono::seconds(300)) {
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    ros::spinOnce();
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return true;
+/// spinUntil() with more patience: on a busy host the machine takes a minute to load a node's libraries.
+template <class Condition>
+bool comesTrue(Condition&& condition, double patience_s = 300.0, double poll_s = 0.005) {
+  return spinUntil(condition, patience_s, poll_s);
 }
 
 /// Offset of ROS time from the monotonic clock; a reading that was interrupted does not count.

@@ -9,7 +9,6 @@
 #include <iostream>
 #include <iterator>
 #include <string>
-#include <thread>
 
 #include "v4l2/vivid_fixture.h"
 
@@ -41,19 +40,19 @@ TEST_F(Vivid, ComesBackAfterFatalErrorDisconnectAndRefusedStart) {
   ASSERT_TRUE(rig_.pairsCome(5));
   auto since = Clock::now();
   press(kRight, "inject_fatal_streaming_error");
-  ASSERT_TRUE(StereoRig::comesTrue([this] { return rig_.right().state == CameraState::kRetrying; }));
+  ASSERT_TRUE(test::waitUntil([this] { return rig_.right().state == CameraState::kRetrying; }));
   expectPairsAgain(since, "fatal_error");
 
   since = Clock::now();
   press(kRight, "disconnect");
-  ASSERT_TRUE(StereoRig::comesTrue([this] { return rig_.right().state == CameraState::kRetrying; }));
+  ASSERT_TRUE(test::waitUntil([this] { return rig_.right().state == CameraState::kRetrying; }));
   EXPECT_NE(rig_.right().problem.find("unplugged"), std::string::npos) << rig_.right().problem;
   expectPairsAgain(since, "disconnect");
 
   press(kRight, "inject_vidioc_streamon_error");  // hits the next start, which is this one's
   since = Clock::now();
   press(kRight, "inject_fatal_streaming_error");
-  ASSERT_TRUE(StereoRig::comesTrue([this] { return rig_.right().failed_attempts >= 1; }));
+  ASSERT_TRUE(test::waitUntil([this] { return rig_.right().failed_attempts >= 1; }));
   expectPairsAgain(since, "refused_start");
   EXPECT_EQ(rig_.right().reconnections, 3u);
   EXPECT_EQ(rig_.left().reconnections, 0u) << "the other camera was not disturbed";
@@ -63,10 +62,11 @@ TEST_F(Vivid, ComesBackWhenBothCamerasWereRemovedAndBoundAgain) {
   rig_.start(configOf(320, 180));
   ASSERT_TRUE(rig_.pairsCome(5));
   writeTo(kDriver + "unbind", "vivid.0");
-  ASSERT_TRUE(StereoRig::comesTrue([this] {
+  ASSERT_TRUE(test::waitUntil([this] {
     return rig_.left().state == CameraState::kRetrying && rig_.right().state == CameraState::kRetrying;
   }));
-  std::this_thread::sleep_for(std::chrono::seconds(2));
+  ASSERT_TRUE(test::waitUntil(
+      [this] { return rig_.left().failed_attempts >= 2 && rig_.right().failed_attempts >= 2; }));
   writeTo(kDriver + "bind", "vivid.0");
   expectPairsAgain(Clock::now(), "removed_and_bound");
   EXPECT_EQ(rig_.left().reconnections, 1u);
@@ -81,7 +81,7 @@ TEST_F(Vivid, FiftyReconnectionsLeaveNothingBehind) {
   ASSERT_TRUE(rig_.pairsCome(3));
   const auto cycle = [this](std::uint64_t number) {
     press(kRight, number % 2 == 0 ? "inject_fatal_streaming_error" : "disconnect");
-    return StereoRig::comesTrue([&] { return rig_.right().reconnections == number + 1; });
+    return test::waitUntil([&] { return rig_.right().reconnections == number + 1; });
   };
   std::uint64_t number = 0;
   // Measured always after the same number of pairs: a driver's buffers take memory when they are first used.

@@ -89,7 +89,7 @@ TEST_F(Vivid, MatchExposureLetsTheRightGainFollow) {
   config.left.controls = {{"gain_automatic", 0}, {"gain", 33}};
   config.right.controls = {{"gain_automatic", 0}, {"gain", 0}};
   rig_.start(config);
-  EXPECT_TRUE(StereoRig::comesTrue([] { return getControl(kRight, "gain") == 33; }));
+  EXPECT_TRUE(test::waitUntil([] { return getControl(kRight, "gain") == 33; }));
 }
 
 TEST_F(Vivid, FinderSeesTheCamerasByTheirPorts) {

@@ -27,7 +27,7 @@ TEST_F(StereoCameraTest, ControlsAreSetByEitherNameAndAgainAfterAReconnection) {
 
   rig_->camera().right().setControl("gain", 55);
   rig_->camera().right().setControl("auto_exposure", 0);  // the new name of what was set by its old one
-  EXPECT_TRUE(comesTrue([this] { return kernel_.look(1).controls[0].value == 55; }));
+  EXPECT_TRUE(test::waitUntil([this] { return kernel_.look(1).controls[0].value == 55; }));
   kernel_.change(1, [](FakeCamera& camera) {
     camera.dequeue_error = EIO;
     camera.controls[0].value = 0;
@@ -85,7 +85,7 @@ TEST_F(StereoCameraTest, AnAutomaticExposureThatTheCameraDoesNotTellIsNotBelieve
   EXPECT_TRUE(rig_->left().exposure_unknown);
   // A control that changes while nobody sets it is in use, whatever the driver's flags say.
   kernel_.change(0, [](FakeCamera& camera) { camera.controls[1].value = 24; });
-  EXPECT_TRUE(comesTrue([this] { return !rig_->left().exposure_unknown; }));
+  EXPECT_TRUE(test::waitUntil([this] { return !rig_->left().exposure_unknown; }));
   ASSERT_TRUE(morePairsCome());
   const auto pairs = rig_->stop();
   EXPECT_TRUE(std::isnan(pairs.front().pair.left.exposure_s));
@@ -110,7 +110,7 @@ class MatchExposureTest : public StereoCameraTest {
     });
   }
   bool rightGets(std::int32_t gain, std::int32_t exposure) {
-    return comesTrue([this, gain, exposure] {
+    return test::waitUntil([this, gain, exposure] {
       const auto controls = kernel_.look(1).controls;
       return controls[0].value == gain && controls[1].value == V4L2_EXPOSURE_MANUAL &&
              controls[2].value == exposure;
@@ -142,7 +142,7 @@ TEST_F(MatchExposureTest, FollowsAnAutomaticExposureThatTheCameraTells) {
 
 TEST_F(MatchExposureTest, StaysAutomaticAndSaysSoUntilTheLeftCameraTellsItsExposure) {
   startWith(V4L2_EXPOSURE_APERTURE_PRIORITY, 0);
-  EXPECT_TRUE(comesTrue([this] { return rig_->log().find("set exposure_ms") != std::string::npos; }));
+  EXPECT_TRUE(test::waitUntil([this] { return rig_->log().find("set exposure_ms") != std::string::npos; }));
   EXPECT_EQ(kernel_.look(1).controls[1].value, V4L2_EXPOSURE_APERTURE_PRIORITY);
   setLeft(44);
   EXPECT_TRUE(rightGets(22, 44));

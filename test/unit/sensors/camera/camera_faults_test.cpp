@@ -17,9 +17,10 @@ TEST_F(StereoCameraTest, ComesBackAfterEveryFaultWhileTheOtherCameraRuns) {
   ASSERT_TRUE(morePairsCome());
   const auto afterFault = [this](const std::string& said, const auto& fault) {
     kernel_.change(1, fault);
-    EXPECT_TRUE(comesTrue([&] { return rig_->right().problem.find(said) != std::string::npos; })) << said;
+    EXPECT_TRUE(test::waitUntil([&] { return rig_->right().problem.find(said) != std::string::npos; }))
+        << said;
     const auto left_frames = rig_->left().frames;
-    EXPECT_TRUE(comesTrue([&] { return rig_->left().frames > left_frames + 10; }));
+    EXPECT_TRUE(test::waitUntil([&] { return rig_->left().frames > left_frames + 10; }));
     kernel_.change(1, [](FakeCamera& camera) {
       camera.open_error = camera.stream_on_error = camera.dequeue_error = camera.format_error = 0;
       camera.stalled = false;
@@ -66,7 +67,7 @@ TEST_F(StereoCameraTest, StartsWithoutCamerasAndPairsOnceTheyAreThere) {
   const FakeCamera left = kernel_.look(0);
   kernel_.unplug(0);
   start(config());
-  ASSERT_TRUE(comesTrue([this] { return rig_->left().failed_attempts >= 2; }));
+  ASSERT_TRUE(test::waitUntil([this] { return rig_->left().failed_attempts >= 2; }));
   kernel_.plugIn(0, left);
   EXPECT_TRUE(morePairsCome());
   EXPECT_EQ(rig_->left().reconnections, 0u) << "the first time is no reconnection";
@@ -75,7 +76,7 @@ TEST_F(StereoCameraTest, StartsWithoutCamerasAndPairsOnceTheyAreThere) {
 TEST_F(StereoCameraTest, FiftyCyclesLeaveNothingBehind) {
   start(config());
   for (std::uint64_t cycle = 0; cycle < 50; ++cycle) {
-    ASSERT_TRUE(comesTrue([&] {
+    ASSERT_TRUE(test::waitUntil([&] {
       return rig_->right().reconnections == cycle && rig_->right().state == CameraState::kStreaming;
     }));
     EXPECT_LE(kernel_.openDescriptors(), 4);
@@ -92,7 +93,7 @@ TEST_F(StereoCameraTest, CorruptImagesAreCountedAndTheStreamGoesOn) {
     camera.payload = {0xff, 0xd8, 0xff, 0xe0, 1, 2, 3};
   });
   start(config());
-  ASSERT_TRUE(comesTrue([this] { return rig_->right().undecodable > 20; }));
+  ASSERT_TRUE(test::waitUntil([this] { return rig_->right().undecodable > 20; }));
   EXPECT_EQ(rig_->right().frames, 0u);
   EXPECT_GT(rig_->left().frames, 0u);
   EXPECT_NE(rig_->log().find("broken JPEG"), std::string::npos);

@@ -51,11 +51,7 @@ class StereoCameraTest : public testing::Test {
   }
   bool morePairsCome() { return rig_->pairsCome(10); }
   bool rightIsRetrying() {
-    return comesTrue([this] { return rig_->right().state == CameraState::kRetrying; });
-  }
-  template <class Condition>
-  bool comesTrue(Condition&& condition) {
-    return StereoRig::comesTrue(condition);
+    return test::waitUntil([this] { return rig_->right().state == CameraState::kRetrying; });
   }
 
   FakeKernel kernel_;

@@ -37,7 +37,7 @@ TEST_F(StereoCameraTest, TheLargestSkewCanBeChangedWhileItRuns) {
   EXPECT_DOUBLE_EQ(rig_->camera().status().max_time_offset_s, 0.0005);
   const auto aloneSoFar = [this] { return rig_->camera().status().pairing.without_partner[0]; };
   const auto alone = aloneSoFar();
-  EXPECT_TRUE(comesTrue([&] { return aloneSoFar() > alone + 10; }));
+  EXPECT_TRUE(test::waitUntil([&] { return aloneSoFar() > alone + 10; }));
   rig_->camera().setMaxTimeOffset(0.0015);
   EXPECT_TRUE(morePairsCome());
 }
@@ -104,7 +104,7 @@ TEST_F(StereoCameraTest, MeasuresTheSlideOfCamerasWhoseRateIsNotTheOneAskedFor) 
   ASSERT_TRUE(rig_->pairsCome(250));  // the skew passes a whole period twice
   // What a busy machine made the pairer miss leaves the fit again.
   double rate = 0.0;
-  comesTrue([&] {
+  test::waitUntil([&] {
     rate = rig_->camera().status().time_offset_rate;
     return std::abs(rate - 0.01) <= 0.001;
   });

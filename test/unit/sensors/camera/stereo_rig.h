@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sensors/camera/stereo_camera.h"
+#include "support/wait.h"
 
 namespace stereo_nav::camera {
 
@@ -68,20 +69,9 @@ class StereoRig {
     return log_;
   }
 
-  /// Waits for a generous time; false when the condition does not become true.
-  template <class Condition>
-  static bool comesTrue(Condition&& condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(90);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return true;
-  }
-
   bool pairsCome(std::size_t count) {
     const std::size_t before = pairCount();
-    return comesTrue([&] { return pairCount() >= before + count; });
+    return test::waitUntil([&] { return pairCount() >= before + count; });
   }
 
  private:
