@@ -38,7 +38,7 @@ ros_io::DisparityParams readDisparityParams(const ros::NodeHandle& private_handl
 }
 
 ImageProcLoader::ImageProcLoader(bool exact_stamps, const ros_io::DisparityParams& disparity_params)
-    : loader_(setDefaultThreads()) {
+    : gate_(ros::NodeHandle(), ros::this_node::getName()), loader_(setDefaultThreads()) {
   loadCamera("left");
   loadCamera("right");
   const ros::NodeHandle disparity(ros::this_node::getName() + "_disparity");
@@ -46,9 +46,8 @@ ImageProcLoader::ImageProcLoader(bool exact_stamps, const ros_io::DisparityParam
   disparity.setParam("approximate_sync", !exact_stamps);
   nodelet::M_string remappings = {{"disparity", resolve("camera/disparity")}};
   for (const std::string side : {"left", "right"}) {
-    for (const std::string topic : {"image_rect", "camera_info"}) {
-      remappings[side + "/" + topic] = resolve("camera/" + side + "/" + topic);
-    }
+    remappings[side + "/image_rect"] = resolve("camera/" + side + "/image_rect");
+    remappings[side + "/camera_info"] = resolve("camera/" + side + "/checked_info");
   }
   load("_disparity", "stereo_image_proc/disparity", remappings);
 }
@@ -61,11 +60,11 @@ void ImageProcLoader::loadCamera(const std::string& side) {
         {"image_color", resolve(camera + "image_color")}});
   load("_rectify_" + side, "image_proc/rectify",
        {{"image_mono", resolve(camera + "image_mono")},
-        {"camera_info", resolve(camera + "camera_info")},
+        {resolve(camera + "camera_info"), resolve(camera + "checked_info")},
         {"image_rect", resolve(camera + "image_rect")}});
   load("_rectify_color_" + side, "image_proc/rectify",
        {{"image_mono", resolve(camera + "image_color")},
-        {"camera_info", resolve(camera + "camera_info")},
+        {resolve(camera + "camera_info"), resolve(camera + "checked_info")},
         {"image_rect", resolve(camera + "image_rect_color")}});
 }
 

@@ -1,7 +1,6 @@
 #include "ros/setup_checks.h"
 
 #include "stereo_nav/core/input_error.h"
-#include "stereo_nav/ros/conversions.h"
 
 namespace stereo_nav::ros_io {
 namespace {
@@ -18,9 +17,11 @@ void checkImage(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& 
                      "'; let the driver publish both with the left camera's optical frame");
   }
   if (image.width != info.width || image.height != info.height) {
-    throw InputError("the " + side + " image is " + sizeText(image.width, image.height) +
-                     ", its camera_info is for " + sizeText(info.width, info.height) +
-                     "; calibrate at the size that the camera delivers, without binning or cropping");
+    throw InputError(
+        "the " + side + " image is " + sizeText(image.width, image.height) + ", its camera_info is for " +
+        sizeText(info.width, info.height) +
+        "; calibrate at the size that the camera delivers; camera_info must hold the binning and roi that "
+        "it uses");
   }
 }
 
@@ -30,23 +31,25 @@ std::string withoutSlash(const std::string& frame_id) {
   return !frame_id.empty() && frame_id.front() == '/' ? frame_id.substr(1) : frame_id;
 }
 
-vision::StereoCalibration checkedCalibration(const sensor_msgs::Image& left, const sensor_msgs::Image& right,
-                                             const sensor_msgs::CameraInfo& left_info,
-                                             const sensor_msgs::CameraInfo& right_info) {
+JudgedInfos checkedInfos(const sensor_msgs::Image& left, const sensor_msgs::Image& right,
+                         const sensor_msgs::CameraInfo& left_info,
+                         const sensor_msgs::CameraInfo& right_info) {
   if (left.header.frame_id.empty()) {
     throw InputError(
         "the left image carries no frame id, so that the position of the camera is unknown; set the frame_id "
         "parameter of the camera driver");
   }
-  const vision::StereoCalibration calibration = ros_io::toCalibration(left_info, right_info);
-  checkImage(left, left_info, "left");
-  checkImage(right, right_info, "right");
-  return calibration;
+  JudgedInfos infos = judgeInfos(left_info, right_info);
+  checkImage(left, infos.left, "left");
+  checkImage(right, infos.right, "right");
+  return infos;
 }
 
 bool sameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
   return a.header.frame_id == b.header.frame_id && a.width == b.width && a.height == b.height && a.K == b.K &&
-         a.D == b.D && a.R == b.R && a.P == b.P;
+         a.D == b.D && a.R == b.R && a.P == b.P && a.distortion_model == b.distortion_model &&
+         a.binning_x == b.binning_x && a.binning_y == b.binning_y && a.roi.x_offset == b.roi.x_offset &&
+         a.roi.y_offset == b.roi.y_offset && a.roi.width == b.roi.width && a.roi.height == b.roi.height;
 }
 
 std::string missingTransform(const std::string& base_frame, const std::string& sensor_frame,

@@ -5,19 +5,18 @@
 
 #include <string>
 
-#include "stereo_nav/vision/stereo_calibration.h"
+#include "ros/judged_infos.h"
 
 namespace stereo_nav::ros_io {
 
 /// Removes the leading slash that frame ids in old recordings have; tf requires ids without it.
 std::string withoutSlash(const std::string& frame_id);
 
-/// Geometry of the pair from the cameras' camera_infos. Throws InputError when images and camera_infos do not
-/// belong together: their frame ids differ (image_geometry would abort the process), the frame id is empty,
-/// their sizes differ, or the camera_infos are no stereo calibration.
-vision::StereoCalibration checkedCalibration(const sensor_msgs::Image& left, const sensor_msgs::Image& right,
-                                             const sensor_msgs::CameraInfo& left_info,
-                                             const sensor_msgs::CameraInfo& right_info);
+/// The cameras' camera_infos, judged (judgeInfos()). Throws InputError also when rectified images and
+/// camera_infos do not belong together: their frame ids differ (image_geometry would abort the process), the
+/// frame id is empty, or their sizes differ.
+JudgedInfos checkedInfos(const sensor_msgs::Image& left, const sensor_msgs::Image& right,
+                         const sensor_msgs::CameraInfo& left_info, const sensor_msgs::CameraInfo& right_info);
 
 /// Whether the two describe the same camera; stamps do not matter.
 bool sameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b);

@@ -8,8 +8,11 @@ constexpr const char* kLeftImage = "camera/left/image_raw";     ///< sensor_msgs
 constexpr const char* kRightImage = "camera/right/image_raw";   ///< sensor_msgs/Image
 constexpr const char* kLeftInfo = "camera/left/camera_info";    ///< sensor_msgs/CameraInfo
 constexpr const char* kRightInfo = "camera/right/camera_info";  ///< sensor_msgs/CameraInfo
-constexpr const char* kSync = "camera/sync";                    ///< stereo_nav/StereoSync
-constexpr const char* kImu = "imu/data";                        ///< sensor_msgs/Imu
+/// sensor_msgs/CameraInfo for the image nodelets: checked, of the images as they are delivered.
+constexpr const char* kLeftCheckedInfo = "camera/left/checked_info";
+constexpr const char* kRightCheckedInfo = "camera/right/checked_info";  ///< the same of the right camera
+constexpr const char* kSync = "camera/sync";                            ///< stereo_nav/StereoSync
+constexpr const char* kImu = "imu/data";                                ///< sensor_msgs/Imu
 /// The thesis' topic: orientation without a header.
 constexpr const char* kImuQuaternion = "imu_quat";
 constexpr const char* kGroundTruth = "ground_truth/odom";  ///< nav_msgs/Odometry

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "ros/setup_checks.h"
 #include "stereo_nav/ros/conversions.h"
 
 namespace stereo_nav::nodes {
@@ -205,8 +206,29 @@ void OdometryInputs::report() {
   health_.replace("silent: ", true, monitor_.silentInputs(now_s));
   health_.replace("synchronisation", true, {{"", monitor_.unsynchronised(now_s)}});
   health_.replace("dropped frames", false, {{"", newDrops()}});
+  health_.replace("calibration", true, {{"", calibrationProblem()}});
   health_.setCount("frames without late IMU", inbox_.framesWithoutImu());
   health_.setCount("IMU messages dropped", inbox_.imuDropped() + imu_refused_);
+}
+
+/// Said here as well as with the frames: of a pair that is refused no frame is rectified.
+std::string OdometryInputs::calibrationProblem() {
+  const SensorSetup now = setup();
+  if (!now.left_info || !now.right_info) return "";
+  const auto same = [](const sensor_msgs::CameraInfoConstPtr& a, const sensor_msgs::CameraInfoConstPtr& b) {
+    return a && ros_io::sameCamera(*a, *b);
+  };
+  if (same(judged_setup_.left_info, now.left_info) && same(judged_setup_.right_info, now.right_info)) {
+    return calibration_problem_;
+  }
+  judged_setup_ = now;
+  calibration_problem_.clear();
+  try {
+    ros_io::judgeInfos(*now.left_info, *now.right_info);
+  } catch (const std::exception& error) {
+    calibration_problem_ = error.what();
+  }
+  return calibration_problem_;
 }
 
 std::string OdometryInputs::newDrops() {

@@ -58,6 +58,7 @@ class OdometryInputs {
   void addImuSample(const ImuSample& sample, const std::string& frame_id);
   void passOnFrames();
   std::string newDrops();
+  std::string calibrationProblem();
 
   ros::NodeHandle handle_;
   ros::NodeHandle private_handle_;
@@ -74,6 +75,8 @@ class OdometryInputs {
   std::uint64_t lefts_received_ = 0;
   std::uint64_t imu_refused_ = 0;
   std::uint64_t dropped_reported_ = 0;
+  SensorSetup judged_setup_;  ///< whose calibration the problem below is
+  std::string calibration_problem_;
 
   mutable std::mutex mutex_;  ///< guards the two below
   SensorSetup setup_;

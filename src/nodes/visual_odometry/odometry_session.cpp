@@ -99,7 +99,7 @@ bool OdometrySession::prepareCameras(const ros_io::FrameMessages& frame, const S
     return false;
   }
   try {
-    calibration_ = ros_io::checkedCalibration(*frame.left, *frame.right, *setup.left_info, *setup.right_info);
+    judged_ = ros_io::checkedInfos(*frame.left, *frame.right, *setup.left_info, *setup.right_info);
   } catch (const std::exception& error) {
     output.errors["cameras"] = error.what();
     return false;
@@ -144,14 +144,15 @@ bool OdometrySession::prepareImu(const SensorSetup& setup, SessionOutput& output
 }
 
 void OdometrySession::makeOdometry(SessionOutput& output) {
-  calibration_.left_raw_rows = ros_io::rawRows(*left_info_);
-  calibration_.right_raw_rows = ros_io::rawRows(*right_info_);
-  odometry_ =
-      odometry::makeOdometry(config_, calibration_, T_base_camera_.linear().transpose() * R_base_imu_);
+  vision::StereoCalibration calibration = judged_.calibration;
+  calibration.left_raw_rows = ros_io::rawRows(judged_.left);
+  calibration.right_raw_rows = ros_io::rawRows(judged_.right);
+  odometry_ = odometry::makeOdometry(config_, calibration, T_base_camera_.linear().transpose() * R_base_imu_);
   const std::optional<estimation::BaseOdometry> before = std::move(base_);
   base_.emplace(params_.uncertainty, T_base_camera_);
   if (before) base_->start(before->estimate().T_odom_base, before->estimate().pose_covariance);
-  camera_order_.emplace(calibration_);
+  camera_order_.emplace(calibration);
+  for (const std::string& note : judged_.notes) output.notes.push_back(note);
   output.notes.push_back("odometry of " + params_.base_frame + " from camera " + camera_frame_ +
                          (imu_frame_.empty() ? " without IMU" : " with IMU " + imu_frame_));
 }
@@ -179,7 +180,8 @@ bool OdometrySession::readImages(const ros_io::FrameMessages& frame, SessionOutp
     output.images.readout_s = frame.rolling_shutter_s;
     output.images.left = ros_io::toMono8(frame.left);
     output.images.right = ros_io::toMono8(frame.right);
-    if (frame.disparity) output.images.disparity = ros_io::toDisparityMap(*frame.disparity, calibration_);
+    if (frame.disparity)
+      output.images.disparity = ros_io::toDisparityMap(*frame.disparity, judged_.calibration);
     if (frame.rolling_shutter_s >= 0.0 && frame.rolling_shutter_s <= odometry::kLongestReadout_s) return true;
     output.errors["rolling_shutter"] =
         "rolling_shutter_s of camera/sync is " + std::to_string(frame.rolling_shutter_s) +

@@ -13,6 +13,7 @@
 #include "core/rotation_history.h"
 #include "nodes/visual_odometry/visual_odometry_params.h"
 #include "ros/inbox.h"
+#include "ros/judged_infos.h"
 #include "stereo_nav/odometry/method/odometry_config.h"
 #include "vision/camera_order.h"
 
@@ -86,7 +87,7 @@ class OdometrySession {
   sensor_msgs::CameraInfoConstPtr right_info_;
   std::string camera_frame_;
   std::string imu_frame_;  ///< empty while the IMU is not used
-  vision::StereoCalibration calibration_;
+  ros_io::JudgedInfos judged_;
   Eigen::Isometry3d T_base_camera_ = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d R_base_imu_ = Eigen::Matrix3d::Identity();
   std::unique_ptr<odometry::Odometry> odometry_;  ///< null until the whole setup is known
