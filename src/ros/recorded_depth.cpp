@@ -43,7 +43,7 @@ vision::BitDepth recordedDepth(const rosbag::Bag& bag, const std::string& left, 
 
 cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image, const vision::BitDepth& depth) {
   namespace enc = sensor_msgs::image_encodings;
-  const cv::Mat plain = toMono8(image);  // with all checks
+  cv::Mat plain = toMono8(image);  // with all checks
   if (image->encoding != enc::MONO16 || depth.isPlain()) return plain;
   cv::Mat grey;
   vision::toFullRange(cv_bridge::toCvShare(image)->image, depth).convertTo(grey, CV_8U, 255.0 / 65535.0);

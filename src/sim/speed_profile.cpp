@@ -15,7 +15,7 @@ std::vector<double> limitedSpeeds(double step_m, std::size_t points,
     const double wavering =
         1.0 + limits.variation * (0.6 * std::sin(2.3 * arc) + 0.4 * std::sin(5.9 * arc + 1.0));
     const double in_curve = limits.yaw_rate_rps / std::max(std::fabs(curvature(arc)), 1e-6);
-    speeds.push_back(std::min(limits.speed_mps * wavering, in_curve));
+    speeds.push_back(std::min(limits.speed_m_s * wavering, in_curve));
   }
   const auto reachable = [&](double from) {
     return std::sqrt(from * from + 2.0 * limits.acceleration_mps2 * step_m);
@@ -62,13 +62,13 @@ SpeedProfile::SpeedProfile(double length_m, const std::function<double(double)>&
   increments = spread(spread(increments, kSmoothing), kSmoothing);
 
   arc_m_.push_back(0.0);
-  speed_mps_.push_back(0.0);
+  speed_m_s_.push_back(0.0);
   for (std::size_t i = 0; i < increments.size(); ++i) {
     arc_m_.push_back(arc_m_.back() + increments[i]);
     const double next = i + 1 < increments.size() ? increments[i + 1] : 0.0;
-    speed_mps_.push_back(0.5 * (increments[i] + next) / kStep_s);
+    speed_m_s_.push_back(0.5 * (increments[i] + next) / kStep_s);
   }
-  speed_mps_.back() = 0.0;
+  speed_m_s_.back() = 0.0;
 }
 
 double SpeedProfile::duration_s() const {
@@ -79,15 +79,15 @@ double SpeedProfile::arc_m(double time_s) const {
   const double at = std::clamp(time_s, 0.0, duration_s()) / kStep_s;
   const auto i = std::min(static_cast<std::size_t>(at), arc_m_.size() - 2);
   const double t = at - static_cast<double>(i), u = 1.0 - t;
-  return u * u * ((1.0 + 2.0 * t) * arc_m_[i] + t * kStep_s * speed_mps_[i]) +
-         t * t * ((3.0 - 2.0 * t) * arc_m_[i + 1] - u * kStep_s * speed_mps_[i + 1]);
+  return u * u * ((1.0 + 2.0 * t) * arc_m_[i] + t * kStep_s * speed_m_s_[i]) +
+         t * t * ((3.0 - 2.0 * t) * arc_m_[i + 1] - u * kStep_s * speed_m_s_[i + 1]);
 }
 
-double SpeedProfile::speed_mps(double time_s) const {
+double SpeedProfile::speed_m_s(double time_s) const {
   const double at = std::clamp(time_s, 0.0, duration_s()) / kStep_s;
   const auto i = std::min(static_cast<std::size_t>(at), arc_m_.size() - 2);
   const double t = at - static_cast<double>(i);
-  return (1.0 - t) * speed_mps_[i] + t * speed_mps_[i + 1];
+  return (1.0 - t) * speed_m_s_[i] + t * speed_m_s_[i + 1];
 }
 
 double SpeedProfile::timeOf(double arc_m) const {

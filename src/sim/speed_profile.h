@@ -7,7 +7,7 @@ namespace stereo_nav::sim {
 
 /// Limits of a drive along a curve; all > 0.
 struct SpeedLimits {
-  double speed_mps;
+  double speed_m_s;
   double acceleration_mps2;
   double yaw_rate_rps;
   double variation;  ///< share by which the speed wavers
@@ -22,14 +22,14 @@ class SpeedProfile {
 
   double duration_s() const;
   double arc_m(double time_s) const;
-  double speed_mps(double time_s) const;
+  double speed_m_s(double time_s) const;
   /// When the distance reaches `arc_m`.
   double timeOf(double arc_m) const;
 
  private:
   static constexpr double kStep_s = 0.01;
 
-  std::vector<double> speed_mps_, arc_m_;  ///< at multiples of kStep_s
+  std::vector<double> speed_m_s_, arc_m_;  ///< at multiples of kStep_s
 };
 
 }  // namespace stereo_nav::sim

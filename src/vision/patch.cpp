@@ -173,7 +173,8 @@ std::optional<Patch::Match> Patch::align(const cv::Mat& image, const cv::Point2f
                                          double min_step_px) const {
   constexpr float kLongestStep_px = 2.0F;
   alignas(16) Grid grid;
-  const auto half = static_cast<float>(window_ / 2);
+  const int half_window = window_ / 2;
+  const auto half = static_cast<float>(half_window);
   Match match{guess, 0.0F, false};
   for (int i = 0; i < iterations && !match.converged; ++i) {
     if (!inside(image, match.px)) return std::nullopt;

@@ -86,13 +86,13 @@ RecorderNode::RecorderNode(const ros::NodeHandle& handle, const ros::NodeHandle&
 }
 
 int RecorderNode::run() {
-  constexpr unsigned int kMega = 1024 * 1024;
+  constexpr unsigned int kMebi = 1024 * 1024;
   rosbag::RecorderOptions options;
   options.prefix = (folder_ / params_.prefix).string();
   options.topics = recordedTopics(params_);
   options.split = true;
-  options.max_size = static_cast<std::uint64_t>(params_.split_mb) * kMega;
-  options.buffer_size = static_cast<std::uint32_t>(params_.buffer_mb) * kMega;
+  options.max_size = static_cast<std::uint64_t>(params_.split_mb) * kMebi;
+  options.buffer_size = static_cast<std::uint32_t>(params_.buffer_mb) * kMebi;
   options.min_space = toBytes(params_.reserve_gb);
   options.min_space_str = std::to_string(params_.reserve_gb) + "G";
   options.repeat_latched = true;  // each bag can be used alone: tf_static is in all of them

@@ -64,11 +64,11 @@ Trajectory groundTruthOfBase(const EvaluateOptions& options, const ros_io::Recor
 class Run {
  public:
   Run(const ros_io::Recording& recording, const ros_io::StereoProcessing& processing,
-      odometry::OdometryConfig config, const std::optional<std::string>& disparity_bag,
+      const odometry::OdometryConfig& config, const std::optional<std::string>& disparity_bag,
       const Eigen::Isometry3d& T_base_camera, const Eigen::Matrix3d& R_camera_imu)
       : recording_(recording),
         processing_(processing),
-        config_(std::move(config)),
+        config_(config),
         T_base_camera_(T_base_camera),
         odometry_(odometry::makeOdometry(config_, processing.calibration(), R_camera_imu)) {
     if (disparity_bag && config_.disparityUse() != odometry::DisparityUse::kNone)
