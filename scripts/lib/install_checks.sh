@@ -2,13 +2,15 @@
 # Checks that what we install works without the source tree: install_checks.sh BUILD_DIR. Prints Test Anything Protocol
 # lines, what went wrong on standard error.
 #
-# Installs in both ways that there are, each into an empty folder below BUILD_DIR: `cmake --install` of BUILD_DIR, and
-# `catkin_make install` of a workspace. Uses each as another user would: programs, launch files, and the package of
-# somebody else in test/external_package, which uses the library and the nodelet.
+# Installs in both ways that there are, each into an empty folder below BUILD_DIR/.install_checks: `cmake --install` of
+# BUILD_DIR, and `catkin_make install` of a workspace. Uses each as another user would: programs, launch files, and the
+# package of somebody else in test/external_package, which uses the library and the nodelet.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-work_dir=$(absolute_path "$1")/install_checks
+# Hidden, since roslaunch looks for every node in all of the package's folder and follows links: that of the workspace leads
+# back to the package.
+work_dir=$(absolute_path "$1")/.install_checks
 workspace=$work_dir/workspace
 rm -rf "$work_dir/prefix" "$work_dir/external" "$workspace/install"  # what was compiled is used again
 mkdir -p "$workspace/src"

@@ -82,6 +82,24 @@ Eigen::Quaterniond orientationOf(const sensor_msgs::Imu& message) {
   return {q.w, q.x, q.y, q.z};
 }
 
+double stepDegrees(const sensor_msgs::Imu& before, const sensor_msgs::Imu& now) {
+  return imu::heading(orientationOf(now) * orientationOf(before).conjugate()) / kDegree;
+}
+
+/// By the headings.
+double meanTurn_dps(const std::vector<sensor_msgs::Imu>& data) {
+  double turned_deg = 0.0;
+  for (std::size_t i = 1; i < data.size(); ++i) turned_deg += stepDegrees(data[i - 1], data[i]);
+  return turned_deg / (data.back().header.stamp - data.front().header.stamp).toSec();
+}
+
+/// By the rates.
+double meanVelocity_dps(const std::vector<sensor_msgs::Imu>& data) {
+  double sum = 0.0;
+  for (const auto& message : data) sum += message.angular_velocity.z;
+  return sum / static_cast<double>(data.size()) / kDegree;
+}
+
 TEST(ImuBridge, PublishesTheWorkedExampleInEveryForm) {
   Bridge bridge("clean");
   ASSERT_TRUE(spinUntil([&] { return bridge.data.size() > 300 && bridge.quaternions.size() > 300; }));
@@ -104,8 +122,9 @@ TEST(ImuBridge, PublishesTheWorkedExampleInEveryForm) {
   ASSERT_TRUE(spinUntil([&] { return !bridge.texts.empty(); }));
   EXPECT_NE(bridge.texts.back().find("yaw: 30"), std::string::npos) << bridge.texts.back();
   ASSERT_TRUE(spinUntil([&] { return bridge.saidInDiagnostics("streaming"); }));
-  ASSERT_TRUE(spinUntil([&] { return bridge.lastValue("rate (Hz)") > 0.0; }));
-  EXPECT_NEAR(bridge.lastValue("rate (Hz)"), 100.0, 5.0);
+  // Of a second in which the machine did not stall.
+  EXPECT_TRUE(spinUntil([&] { return std::abs(bridge.lastValue("rate (Hz)") - 100.0) < 5.0; }))
+      << bridge.lastValue("rate (Hz)");
   EXPECT_EQ(bridge.lastValue("bad frames"), 0.0);
 }
 
@@ -120,22 +139,20 @@ TEST(ImuBridge, ResetsTheYawAndRefusesToCalibrateTheAngleModule) {
 }
 
 TEST(ImuBridge, TurnsTheRightWayAcrossTheWrapOnADamagedLine) {
+  constexpr double kRate_dps = -20.0;  // the module's yaw grows clockwise
   Bridge bridge("turning");
   ASSERT_TRUE(spinUntil([&] { return bridge.data.size() > 1000; }));
-  double turned_deg = 0.0;
   for (std::size_t i = 1; i < bridge.data.size(); ++i) {
-    const double step =
-        imu::heading(orientationOf(bridge.data[i]) * orientationOf(bridge.data[i - 1]).conjugate()) / kDegree;
-    EXPECT_LT(std::abs(step), 5.0);
-    turned_deg += step;
+    const sensor_msgs::Imu &before = bridge.data[i - 1], &now = bridge.data[i];
+    // Where the machine stalls, frames between the two may be lost.
+    const double due_deg = kRate_dps * (now.header.stamp - before.header.stamp).toSec();
+    EXPECT_LT(std::abs(stepDegrees(before, now)), 5.0 + std::abs(due_deg));
   }
-  const double duration_s = (bridge.data.back().header.stamp - bridge.data.front().header.stamp).toSec();
-  // The module's yaw grows clockwise.
-  EXPECT_NEAR(turned_deg / duration_s, -20.0, 1.0);
-  double rate = 0.0;
-  for (const auto& message : bridge.data)
-    rate += message.angular_velocity.z / static_cast<double>(bridge.data.size());
-  EXPECT_NEAR(rate / kDegree, -20.0, 1.0);
+  // A stall shifts a stamp; the longer the drive, the less it matters.
+  EXPECT_TRUE(spinUntil([&] { return std::abs(meanTurn_dps(bridge.data) - kRate_dps) < 1.0; }))
+      << meanTurn_dps(bridge.data);
+  EXPECT_TRUE(spinUntil([&] { return std::abs(meanVelocity_dps(bridge.data) - kRate_dps) < 1.0; }))
+      << meanVelocity_dps(bridge.data);
   ASSERT_TRUE(spinUntil([&] { return !bridge.diagnostics.empty(); }));
   EXPECT_GT(bridge.lastValue("bad frames"), 0.0);
 }
@@ -186,10 +203,16 @@ TEST(ImuBridge, CalibratesARawModuleAndStoresIt) {
   const auto stored = imu::loadCalibration(portsFolder() + "/calibration.yaml");
   EXPECT_LT((stored.gyroscope_bias.value - Eigen::Vector3d(0.02, -0.01, 0.03)).norm(), 5e-4);
 
-  ros::WallDuration(0.5).sleep();
-  ros::spinOnce();
+  // What was measured before the answer may still be on its way.
+  const ros::Time calibrated = ros::Time::now();
   bridge.data.clear();
-  ASSERT_TRUE(spinUntil([&] { return bridge.data.size() > 400; }));
+  ASSERT_TRUE(spinUntil([&] {
+    auto& data = bridge.data;
+    data.erase(std::remove_if(data.begin(), data.end(),
+                              [&](const auto& message) { return message.header.stamp < calibrated; }),
+               data.end());
+    return data.size() > 400;
+  }));
   double mean = 0.0;
   for (const auto& message : bridge.data)
     mean += message.angular_velocity.z / static_cast<double>(bridge.data.size());

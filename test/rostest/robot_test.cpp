@@ -7,6 +7,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <iostream>
 #include <optional>
 
 #include "core/rig_file.h"
@@ -134,11 +135,26 @@ TEST(Robot, UncertaintyIsChangedLive) {
   ASSERT_TRUE(reconfigure(uncertainty, {{"min_translation_sigma_m", 0.001}}));
 }
 
+/// roswtf's opinion. Its questions to the nodes run into time-outs of its own where the machine is busy: what
+/// it then finds is said, and it is asked again. What is wrong with the graph stays wrong.
+CommandResult askRoswtf() {
+  CommandResult result{};
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    result = runCommand("cd / && PATH=/usr/bin:$PATH timeout 120 roswtf");
+    const auto online = result.output.find("Online checks summary:");
+    if (online != std::string::npos &&
+        result.output.find("No errors or warnings", online) != std::string::npos)
+      break;
+    std::cout << result.output;
+  }
+  return result;
+}
+
 /// The static checks of roswtf look at the computer's ROS installation; they may find anything there, but
 /// nothing about this package. It runs outside of any package's folder, since for a package with messages it
 /// needs ROS_ROOT, which Debian does not set.
 TEST(Robot, RoswtfFindsNothingOfOurs) {
-  const CommandResult result = runCommand("cd / && PATH=/usr/bin:$PATH timeout 120 roswtf");
+  const CommandResult result = askRoswtf();
   const auto online = result.output.find("Online checks summary:");
   ASSERT_NE(online, std::string::npos) << result.output;
   EXPECT_NE(result.output.find("No errors or warnings", online), std::string::npos) << result.output;
