@@ -67,7 +67,7 @@ class Trajectory::Drive : public Piece {
   Drive(const std::vector<Eigen::Vector2d>& points, double heading_rad, const MotionParams& motion)
       : curve_(points, directionOf(heading_rad)),
         profile_(curve_.length_m(), [this](double arc) { return curve_.at(arc).curvature_1pm; },
-                 {motion.max_speed_m_s, motion.max_acceleration_mps2, motion.max_yaw_rate_dps * kRadPerDeg,
+                 {motion.max_speed_mps, motion.max_acceleration_mps2, motion.max_yaw_rate_dps * kRadPerDeg,
                   motion.speed_variation}) {}
   double duration_s() const override { return profile_.duration_s(); }
   PlanarPose at(double time_s) const override {
@@ -128,7 +128,7 @@ Eigen::Isometry3d Trajectory::pose(double time_s) const {
   const PlanarPose planar = pieces_[i]->at(local_s);
 
   // The sway of an uneven floor grows with the speed.
-  const double sway = motion_.sway_deg * kRadPerDeg * planar.speed_m_s / motion_.max_speed_m_s;
+  const double sway = motion_.sway_deg * kRadPerDeg * planar.speed_m_s / motion_.max_speed_mps;
   const double pitch =
       sway * (0.7 * std::sin(2.0 * kPi * 1.7 * time_s) + 0.3 * std::sin(2.0 * kPi * 4.3 * time_s));
   const double roll =
@@ -164,7 +164,7 @@ void PathStep::describe(ParameterVisitor& visitor) {
 }
 
 void MotionParams::describe(ParameterVisitor& visitor) {
-  visitor.real("max_speed_m_s", max_speed_m_s, {0.01, 10.0}, "m/s", "speed on straight stretches");
+  visitor.real("max_speed_mps", max_speed_mps, {0.01, 10.0}, "m/s", "speed on straight stretches");
   visitor.real("max_acceleration_mps2", max_acceleration_mps2, {0.01, 10.0}, "m/s^2", "along the path");
   visitor.real("max_yaw_rate_dps", max_yaw_rate_dps, {1.0, 360.0}, "deg/s", "slows it down in curves");
   visitor.real("speed_variation", speed_variation, {0.0, 0.9}, "", "share by which the speed wavers");

@@ -22,7 +22,7 @@ struct PathStep {
 
 /// How the robot moves along its path.
 struct MotionParams {
-  double max_speed_m_s = 0.4;
+  double max_speed_mps = 0.4;
   double max_acceleration_mps2 = 0.4;
   double max_yaw_rate_dps = 45.0;
   double speed_variation = 0.15;  ///< a hand that pushes is not even: share of the speed

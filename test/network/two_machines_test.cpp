@@ -183,7 +183,7 @@ double largestGap_s(const std::vector<ros::Time>& stamps) {
 std::vector<std::string> robotLaunch(const std::vector<std::string>& arguments) {
   std::vector<std::string> command = {
       "roslaunch", "stereo_nav", "robot.launch", "simulated:=true",
-      "settings:=rig.samples_per_pixel=2;timing.rate_hz=10;motion.max_speed_m_s=0.1"};
+      "settings:=rig.samples_per_pixel=2;timing.rate_hz=10;motion.max_speed_mps=0.1"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return command;
 }

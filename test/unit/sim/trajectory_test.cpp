@@ -56,7 +56,7 @@ TEST(Trajectory, IsNonHolonomicSmoothAndWithinItsLimits) {
     EXPECT_NEAR(state.velocity_base.y(), 0.0, 1e-4) << time_s;
     EXPECT_GE(state.velocity_base.x(), -1e-6) << time_s;
     EXPECT_LT(state.velocity_base.x(),
-              scenario.motion.max_speed_m_s * (1.0 + scenario.motion.speed_variation) + 1e-6);
+              scenario.motion.max_speed_mps * (1.0 + scenario.motion.speed_variation) + 1e-6);
     EXPECT_LT(std::fabs(state.angular_velocity_base.z()),
               1.25 * scenario.motion.max_yaw_rate_dps * M_PI / 180.0);
     EXPECT_LT((state.velocity_base - last_velocity).norm(), 0.01) << time_s;
