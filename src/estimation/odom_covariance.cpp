@@ -34,7 +34,7 @@ OdomCovariance::OdomCovariance(const UncertaintyParams& params, const Eigen::Iso
     : params_(params), adjoint_base_camera_(adjoint(T_base_camera)) {}
 
 Matrix6d OdomCovariance::start(const Eigen::Matrix3d& R_odom_base, const Matrix6d& pose_covariance) {
-  const Matrix6d at_least =
+  Matrix6d at_least =
       pose_covariance + diagonal(params_.min_translation_sigma_m, params_.min_rotation_sigma_rad);
   pose_in_base_ = turned(R_odom_base.transpose(), at_least);
   return at_least;
@@ -42,7 +42,7 @@ Matrix6d OdomCovariance::start(const Eigen::Matrix3d& R_odom_base, const Matrix6
 
 Matrix6d OdomCovariance::addMotion(const odometry::FrameResult& result,
                                    const Eigen::Isometry3d& T_previous_base, double interval_s) {
-  const Matrix6d covariance = motion(result, interval_s);
+  Matrix6d covariance = motion(result, interval_s);
   const Matrix6d carry = adjoint(T_previous_base.inverse());
   pose_in_base_ = carry * pose_in_base_ * carry.transpose() + covariance;
   return covariance;

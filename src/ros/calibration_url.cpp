@@ -28,7 +28,7 @@ std::string rosHome() {
 }  // namespace
 
 std::string pathOfUrl(const std::string& named_url, const std::string& camera_name) {
-  const std::string url = replaced(replaced(named_url, "${ROS_HOME}", rosHome()), "${NAME}", camera_name);
+  std::string url = replaced(replaced(named_url, "${ROS_HOME}", rosHome()), "${NAME}", camera_name);
   const std::string file = "file://", package = "package://";
   if (startsWith(url, file)) return url.substr(file.size());
   if (!startsWith(url, package)) {

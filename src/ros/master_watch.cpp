@@ -124,7 +124,7 @@ int MasterWatch::exitStatus() const {
 
 void MasterWatch::watch(const std::shared_ptr<Shared>& shared) {
   const std::string& node = ros::this_node::getName();
-  const std::string host = ros::master::getHost();
+  const std::string& host = ros::master::getHost();
   const unsigned int port = ros::master::getPort();
   Answer last = Answer::kGood;
   int repeated = 0;

@@ -16,7 +16,7 @@ std::string configFile(const std::string& name) {
     throw InputError("no file " + name +
                      ", and the package stereo_nav is not on the ROS package path; source its setup.bash");
   }
-  const std::string in_package = package + "/config/" + name;
+  std::string in_package = package + "/config/" + name;
   if (std::filesystem::exists(in_package)) return in_package;
   throw InputError("no file " + name + ", neither here nor in " + package + "/config");
 }

@@ -53,7 +53,7 @@ std::vector<std::string> rigNamespaces(const std::vector<std::string>& topics) {
 std::string chooseRig(const std::vector<std::string>& topics, const std::optional<std::string>& wanted) {
   const auto rigs = rigNamespaces(topics);
   if (wanted) {
-    const std::string name = withoutSlashes(*wanted);
+    std::string name = withoutSlashes(*wanted);
     if (std::find(rigs.begin(), rigs.end(), name) != rigs.end()) return name;
     throw InputError("no stereo rig in the namespace '/" + name + "'; the rigs are " +
                      describe(rigs, topics));

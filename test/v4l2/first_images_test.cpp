@@ -60,7 +60,8 @@ TEST(FirstImages, ListedCamerasAreLaunchedAndSeenOnTheScreen) {
       listed, found, std::regex("roslaunch stereo_nav capture.launch (left:=[^ ]+) (right:=[^ \n]+)")))
       << listed;
   // An emulated machine cannot draw, convert and show more.
-  std::ofstream("/tmp/slow_cameras.yaml") << "width: 320\nheight: 180\nrate_hz: 2.0\nmax_skew_s: 0.25\n";
+  std::ofstream("/tmp/slow_cameras.yaml")
+      << "width: 320\nheight: 180\nrate_hz: 2.0\nmax_time_offset_s: 0.25\n";
   Topic<sensor_msgs::Image> left("camera/left/image_raw");
   const NodeProcess launch({"/usr/bin/roslaunch", CAPTURE_LAUNCH, found[1], found[2],
                             "config:=/tmp/slow_cameras.yaml", "load_image_proc:=false"});

@@ -26,7 +26,7 @@ RecorderParams readParams(const ros::NodeHandle& private_handle) {
 
 /// Absolute path of the folder, so that messages about it are clear: roslaunch starts nodes in ROS_HOME.
 fs::path makeFolder(const RecorderParams& params) {
-  const fs::path folder = fs::absolute(params.folder);
+  fs::path folder = fs::absolute(params.folder);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw ParameterError("~folder " + folder.string() + " cannot be created: " + error.message());

@@ -19,7 +19,7 @@ std::optional<Eigen::Isometry3d> lookUp(const TransformLookup& lookup, const std
                                         std::string& problem) {
   if (sensor_frame == base_frame) return Eigen::Isometry3d::Identity();
   std::string error;
-  const auto transform = lookup(base_frame, sensor_frame, error);
+  auto transform = lookup(base_frame, sensor_frame, error);
   if (!transform) problem = ros_io::missingTransform(base_frame, sensor_frame, is_camera, error);
   return transform;
 }

@@ -27,7 +27,7 @@ Vector6d MotionPrior::lateSigma() const {
 
 Vector6d extrapolatedTwist(const Eigen::Isometry3d& T_current_previous, double interval_s,
                            const std::optional<Vector6d>& previous_twist) {
-  const Vector6d mean = logMotion(T_current_previous) / interval_s;
+  Vector6d mean = logMotion(T_current_previous) / interval_s;
   if (!previous_twist) return mean;
   return 1.5 * mean - 0.5 * *previous_twist;
 }

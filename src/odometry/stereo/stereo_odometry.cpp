@@ -136,12 +136,12 @@ PoseEstimate StereoOdometry::estimateFrom(const TrackIndices& selected, const Mo
 PoseEstimate StereoOdometry::estimateRobustly(const TrackIndices& selected, const MotionPrior& prior,
                                               const vision::StereoView& guess) {
   compensateRows(prior, guess);
-  const PoseEstimate by_selected = estimateFrom(selected, prior, guess);
+  PoseEstimate by_selected = estimateFrom(selected, prior, guess);
   if (!by_selected.converged) return by_selected;
   compensateRows(prior, by_selected.view);
   // Tracks without a depth of their own in this frame take part, too.
   const TrackIndices found = foundTracks(follower_.tracks());
-  const PoseEstimate estimate = estimateFrom(found, prior, by_selected.view);
+  PoseEstimate estimate = estimateFrom(found, prior, by_selected.view);
   for (std::size_t k = 0; k < found.size(); ++k) follower_.tracks()[found[k]].inlier = estimate.inlier[k];
   return estimate;
 }

@@ -155,7 +155,7 @@ std::vector<std::size_t> ThesisOdometry::selectRigid(const Tracked& tracked, Fra
     before.push_back(pair.p_previous);
     now.push_back(pair.p_current);
   }
-  const std::vector<std::size_t> clique = greedyClique(buildRigidityGraph(params_.rigidity, before, now));
+  std::vector<std::size_t> clique = greedyClique(buildRigidityGraph(params_.rigidity, before, now));
   result.clique_size = static_cast<std::uint32_t>(clique.size());
   clock.lap("select");
   return clique;

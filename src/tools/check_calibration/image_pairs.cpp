@@ -38,7 +38,7 @@ std::map<std::string, fs::path> imagesOf(const fs::path& folder, const std::stri
 }
 
 cv::Mat readGrey(const fs::path& path) {
-  const cv::Mat image = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
+  cv::Mat image = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
   if (image.empty()) throw InputError(path.string() + ": cannot be read as an image");
   return image;
 }

@@ -35,7 +35,7 @@ class RectifiedFrames : public FrameReader {
   std::size_t size() const override { return frames_->size(); }
 
   cv::Mat read(std::size_t index) override {
-    const cv::Mat image = frames_->read(index);
+    cv::Mat image = frames_->read(index);
     if (image.size() != size_) return image;  // refused where the bag is written
     cv::Mat rectified;
     cv::remap(image, rectified, columns_, rows_, cv::INTER_LINEAR);

@@ -69,7 +69,7 @@ std::vector<double> readMatrix(const cv::FileStorage& file, const std::string& p
   cv::Mat matrix, values;
   if (file[name].isMap()) file[name] >> matrix;
   if (!matrix.empty()) matrix.convertTo(values, CV_64F);
-  const std::vector<double> result(values.begin<double>(), values.end<double>());
+  std::vector<double> result(values.begin<double>(), values.end<double>());
   const bool finite = std::all_of(result.begin(), result.end(), [](double v) { return std::isfinite(v); });
   if (finite && !result.empty() && (count == 0 || result.size() == count)) return result;
   throw InputError(path + ": " + name + " is missing or has not the size that stereo_calib writes");
