@@ -66,12 +66,16 @@ programs_complete() {
   return $status
 }
 
-# The nodelets' description is found, and the library it names is where it says.
+# The nodelets' description is found, and each library it names is where it says.
 nodelets_found() {
-  local description
+  local description library libraries
   description=$(as_user rospack plugins --attrib=plugin nodelet | awk '$1 == "stereo_nav" {print $2}')
-  [[ $description == "$prefix/share/stereo_nav/"* ]] &&
-    [[ -f $prefix/$(sed -n 's/.*<library path="\([^"]*\)".*/\1.so/p' "$description") ]]
+  [[ $description == "$prefix/share/stereo_nav/"* ]] || return 1
+  libraries=$(sed -n 's/.*<library path="\([^"]*\)".*/\1.so/p' "$description")
+  [[ -n $libraries ]] || return 1
+  for library in $libraries; do
+    [[ -f $prefix/$library ]] || { echo "$prefix/$library is missing"; return 1; }
+  done
 }
 
 # external_programs FOLDER: the other package's programs, one for each library, run on what is installed.
