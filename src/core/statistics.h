@@ -24,8 +24,8 @@ Number upperMedian(std::vector<Number>& samples) {
 
 /// Quantile of the chi-square distribution with `dimensions` (1 to 6) degrees of freedom: the squared length
 /// of a normalised error of that many dimensions exceeds it in (1 - share) of all cases. `share` must lie
-/// between 0 and 1, both excluded; the result is exact to 1e-9. For gates and for
-/// tests of consistency.
+/// between 0 and 1, both excluded; the result is exact to 1e-9. For gates and for tests of
+/// consistency.
 double chiSquareQuantile(int dimensions, double share);
 
 }  // namespace stereo_nav

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "core/text_table.h"
 #include "stereo_nav/core/input_error.h"

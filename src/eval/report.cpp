@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "core/atomic_file.h"
 #include "eval/figures.h"
 #include "eval/gnuplot.h"
 #include "eval/losses.h"
-#include "eval/truth_frame.h"
 
 namespace stereo_nav::eval {
 namespace {
@@ -125,10 +123,7 @@ std::string lossTable(const std::vector<Loss>& losses) {
   if (losses.empty()) return "";
   std::string text = "<h2>Lost frames</h2>\n<table>\n";
   for (const Loss& loss : losses) {
-    const std::string line = toText(loss);
-    const std::size_t colon = line.find(": ");
-    text += "<tr><td>" + line.substr(0, colon) + "</td><td>" + htmlEscaped(line.substr(colon + 2)) +
-            "</td></tr>\n";
+    text += "<tr><td>" + framesText(loss) + "</td><td>" + htmlEscaped(loss.reason) + "</td></tr>\n";
   }
   return text + "</table>\n";
 }
@@ -162,9 +157,6 @@ std::optional<std::string> writeReport(const std::string& directory, const Evalu
   }
   for (const std::string& line : input.notes) {
     note += "<p class=\"warning\">" + htmlEscaped(line) + "</p>\n";
-  }
-  if (const auto frame = wrongTruthFrame(input, summary)) {
-    note += "<p class=\"warning\">" + htmlEscaped(*frame) + "</p>\n";
   }
   writeFileAtomically(directory + "/report.html",
                       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

@@ -1,7 +1,6 @@
 #include "eval/truth_frame.h"
 
-#include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "stereo_nav/core/trajectory.h"
 
@@ -24,13 +23,11 @@ std::optional<std::string> wrongTruthFrame(const EvaluationInput& input, const E
   as_camera.ground_truth = ofOtherBody(input.ground_truth, input.T_base_camera.inverse());
   const bool is_camera =
       evaluate(as_camera).summary.rpe_translation_percent < 0.25 * summary.rpe_translation_percent;
-  char figures[160];
-  std::snprintf(
-      figures, sizeof figures,
-      "the ground truth's positions fit (ATE %.1f %% of the path), its axes do not (relative error %.0f %%)",
+  const std::string figures = fmt::format(
+      "the ground truth's positions fit (ATE {:.1f} % of the path), its axes do not (relative error {:.0f} %)",
       100.0 * summary.ate_rmse_m / summary.path_length_m, summary.rpe_translation_percent);
   const std::string frame = input.camera_frame.empty() ? "CAMERA_FRAME" : input.camera_frame;
-  return std::string(figures) +
+  return figures +
          (is_camera
               ? ": it gives the poses of the left camera, not of base_link; use --ground-truth-frame " + frame
               : ": it gives the poses of another frame than base_link; name it by --ground-truth-frame "

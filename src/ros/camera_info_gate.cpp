@@ -18,7 +18,7 @@ constexpr std::array<const char*, 2> kImageTopics = {topics::kLeftImage, topics:
 CameraInfoGate::CameraInfoGate(const ros::NodeHandle& handle, std::string name)
     : handle_(handle), name_(std::move(name)) {
   const ros::SubscriberStatusCallback connected = [this](const ros::SingleSubscriberPublisher&) {
-    handleConnection();
+    askForSizes();
   };
   for (const InfoGate::Side side : kBothSides) {
     publishers_[side] =
@@ -31,10 +31,6 @@ CameraInfoGate::CameraInfoGate(const ros::NodeHandle& handle, std::string name)
 
 bool CameraInfoGate::anybodyWaits() const {
   return publishers_[0].getNumSubscribers() > 0 || publishers_[1].getNumSubscribers() > 0;
-}
-
-void CameraInfoGate::handleConnection() {
-  askForSizes();
 }
 
 void CameraInfoGate::handleInfo(InfoGate::Side side, const sensor_msgs::CameraInfoConstPtr& info) {

@@ -22,7 +22,6 @@ class CameraInfoGate {
  private:
   void handleInfo(InfoGate::Side side, const sensor_msgs::CameraInfoConstPtr& info);
   void handleImage(InfoGate::Side side, const sensor_msgs::ImageConstPtr& image);
-  void handleConnection();
   void askForSizes();
   void publish(const std::vector<InfoGate::Passed>& passed);
   bool anybodyWaits() const;

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "ros/judged_infos.h"
 #include "stereo_nav/core/input_error.h"
+#include "vision/lens_model.h"
 
 namespace stereo_nav::ros_io {
 namespace {
@@ -57,23 +57,7 @@ cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image) {
 }
 
 cv::Mat rawRows(const sensor_msgs::CameraInfo& info) {
-  const std::size_t count = info.D.size();
-  const bool polynomial = info.distortion_model == "rational_polynomial" ||
-                          info.distortion_model == "plumb_bob" || info.distortion_model.empty();
-  const bool complete = count == 0 || count == 4 || count == 5 || count == 8 || count == 12 || count == 14;
-  const bool equidistant = info.distortion_model == "equidistant" && count == 4;
-  if (!equidistant && (!polynomial || !complete)) return {};
-  const cv::Matx33d K(info.K.data());
-  const cv::Matx33d R(info.R.data());
-  const cv::Matx33d P = cv::Matx34d(info.P.data()).get_minor<3, 3>(0, 0);
-  const cv::Size size(static_cast<int>(info.width), static_cast<int>(info.height));
-  cv::Mat columns, rows;
-  if (equidistant) {
-    cv::fisheye::initUndistortRectifyMap(K, info.D, R, P, size, CV_32FC1, columns, rows);
-  } else {
-    cv::initUndistortRectifyMap(K, info.D, R, P, size, CV_32FC1, columns, rows);
-  }
-  return rows;
+  return vision::rawPixels(toFields(info)).rows;
 }
 
 cv::Mat toDisparityMap(const stereo_msgs::DisparityImage& message,

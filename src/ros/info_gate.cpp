@@ -6,13 +6,6 @@
 #include "stereo_nav/core/input_error.h"
 
 namespace stereo_nav::ros_io {
-namespace {
-
-std::string sizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
-}  // namespace
 
 std::vector<InfoGate::Passed> InfoGate::addInfo(Side side, const sensor_msgs::CameraInfoConstPtr& info) {
   Camera& camera = cameras_[side];
@@ -55,15 +48,12 @@ void InfoGate::judge() {
 
 void InfoGate::checkSize(const char* name, Camera& camera, const sensor_msgs::CameraInfo& judged) {
   const cv::Size size = *camera.image_size;
-  if (static_cast<unsigned>(size.width) == judged.width &&
-      static_cast<unsigned>(size.height) == judged.height) {
-    return;
-  }
+  const cv::Size expected(static_cast<int>(judged.width), static_cast<int>(judged.height));
+  if (size == expected) return;
   camera.image_size.reset();  // the driver may be set to the right size
   throw InputError(
-      std::string("the ") + name + " raw image is " + sizeText(size.width, size.height) +
-      ", its camera_info is for " +
-      sizeText(static_cast<int>(judged.width), static_cast<int>(judged.height)) +
+      std::string("the ") + name + " raw image is " + vision::sizeText(size) + ", its camera_info is for " +
+      vision::sizeText(expected) +
       " (width and height, less roi and binning); calibrate at the size that the camera delivers, "
       "or have the driver publish the roi and binning that it uses");
 }

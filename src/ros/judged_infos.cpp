@@ -13,20 +13,6 @@ int toInt(std::uint32_t value) {
   return static_cast<int>(std::min<std::uint32_t>(value, std::numeric_limits<int>::max()));
 }
 
-vision::CameraFields toFields(const sensor_msgs::CameraInfo& info) {
-  vision::CameraFields fields;
-  fields.size = cv::Size(toInt(info.width), toInt(info.height));
-  fields.distortion_model = info.distortion_model;
-  fields.D = info.D;
-  fields.K = cv::Matx33d(info.K.data());
-  fields.R = cv::Matx33d(info.R.data());
-  fields.P = cv::Matx34d(info.P.data());
-  fields.binning = cv::Size(toInt(info.binning_x), toInt(info.binning_y));
-  fields.roi = cv::Rect(toInt(info.roi.x_offset), toInt(info.roi.y_offset), toInt(info.roi.width),
-                        toInt(info.roi.height));
-  return fields;
-}
-
 sensor_msgs::CameraInfo toInfo(const vision::CameraFields& fields, const std_msgs::Header& header) {
   sensor_msgs::CameraInfo info;
   info.header = header;
@@ -41,6 +27,20 @@ sensor_msgs::CameraInfo toInfo(const vision::CameraFields& fields, const std_msg
 }
 
 }  // namespace
+
+vision::CameraFields toFields(const sensor_msgs::CameraInfo& info) {
+  vision::CameraFields fields;
+  fields.size = cv::Size(toInt(info.width), toInt(info.height));
+  fields.distortion_model = info.distortion_model;
+  fields.D = info.D;
+  fields.K = cv::Matx33d(info.K.data());
+  fields.R = cv::Matx33d(info.R.data());
+  fields.P = cv::Matx34d(info.P.data());
+  fields.binning = cv::Size(toInt(info.binning_x), toInt(info.binning_y));
+  fields.roi = cv::Rect(toInt(info.roi.x_offset), toInt(info.roi.y_offset), toInt(info.roi.width),
+                        toInt(info.roi.height));
+  return fields;
+}
 
 JudgedInfos judgeInfos(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right) {
   const vision::JudgedPair pair = vision::judgePair(toFields(left), toFields(right));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stereo_nav/vision/stereo_calibration.h"
+#include "vision/camera_fields.h"
 
 namespace stereo_nav::ros_io {
 
@@ -16,6 +17,9 @@ struct JudgedInfos {
   vision::StereoCalibration calibration;
   std::vector<std::string> notes;  ///< what was assumed or changed, one line each
 };
+
+/// The fields of a camera_info that make the calibration.
+vision::CameraFields toFields(const sensor_msgs::CameraInfo& info);
 
 /// Judges the camera_infos of a pair before they are used. Throws InputError as vision::judgePair() does, and
 /// where the frame ids differ, on which image_geometry would abort the process.

@@ -18,6 +18,7 @@
 #include "ros/judged_infos.h"
 #include "ros/recorded_depth.h"
 #include "ros/rig_topics.h"
+#include "ros/setup_checks.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/topics.h"
 
@@ -26,10 +27,6 @@ namespace {
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
 StampedPose toStampedPose(const ros::Time& stamp, const geometry_msgs::Pose& pose) {

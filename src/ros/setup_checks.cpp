@@ -6,7 +6,7 @@ namespace stereo_nav::ros_io {
 namespace {
 
 std::string sizeText(unsigned int width, unsigned int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
+  return vision::sizeText({static_cast<int>(width), static_cast<int>(height)});
 }
 
 void checkImage(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& info,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/angles.h"
 #include "stereo_nav/core/input_error.h"
 
 namespace stereo_nav::vision {
@@ -36,7 +37,7 @@ void checkFinite(const std::string& name, const CameraFields& camera) {
 void checkSize(const std::string& name, const cv::Size& size) {
   constexpr int kLargest_px = 16384;
   if (size.width > 0 && size.height > 0 && size.width <= kLargest_px && size.height <= kLargest_px) return;
-  refuse(name, "its image size is " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+  refuse(name, "its image size is " + sizeText(size) +
                    "; width and height must be those of the images that were calibrated");
 }
 
@@ -82,7 +83,7 @@ void checkEntries(const std::string& name, const CameraFields& camera) {
 /// `focal_length_px` sees `size_px` in an angle that lenses have.
 void checkView(const std::string& name, const std::string& entry, double focal_length_px, int size_px) {
   constexpr double kNarrowest_deg = 3.0, kWidest_deg = 165.0;
-  const double angle_deg = 2.0 * std::atan2(0.5 * size_px, focal_length_px) * 180.0 / M_PI;
+  const double angle_deg = 2.0 * std::atan2(0.5 * size_px, focal_length_px) * kDegPerRad;
   if (focal_length_px > 0.0 && angle_deg > kNarrowest_deg && angle_deg < kWidest_deg) return;
   refuse(name, "the focal length " + entry + " is " + numberText(focal_length_px) + " px, with which " +
                    std::to_string(size_px) + " px would span " + numberText(angle_deg) +
@@ -106,8 +107,8 @@ void checkPrincipalPoint(const std::string& name, const std::string& matrix, dou
   };
   if (lies_in(cx, size.width) && lies_in(cy, size.height)) return;
   refuse(name, "the principal point of " + matrix + ", (" + numberText(cx) + ", " + numberText(cy) +
-                   "), lies outside the image of " + std::to_string(size.width) + "x" +
-                   std::to_string(size.height) + "; is the calibration of another image size?");
+                   "), lies outside the image of " + sizeText(size) +
+                   "; is the calibration of another image size?");
 }
 
 }  // namespace
@@ -131,12 +132,12 @@ void applyWindow(const std::string& name, CameraFields& camera) {
   cv::Rect roi = camera.roi;
   if (roi == cv::Rect()) roi = cv::Rect(cv::Point(), camera.size);
   const cv::Size binning(std::max(camera.binning.width, 1), std::max(camera.binning.height, 1));
-  const std::string calibrated = std::to_string(camera.size.width) + "x" + std::to_string(camera.size.height);
+  const std::string calibrated = sizeText(camera.size);
   if (roi.x < 0 || roi.y < 0 || roi.width <= 0 || roi.height <= 0 || roi.width > camera.size.width - roi.x ||
       roi.height > camera.size.height - roi.y) {
     std::ostringstream text;
     text
-        << "roi (x_offset " << roi.x << ", y_offset " << roi.y << ", " << roi.width << "x" << roi.height
+        << "roi (x_offset " << roi.x << ", y_offset " << roi.y << ", " << sizeText(roi.size())
         << ") does not lie in the image of " << calibrated
         << "; width and height must be those of the image that was calibrated, before it was cropped, or roi "
            "must be 0 where the cropped image was calibrated";
@@ -144,8 +145,8 @@ void applyWindow(const std::string& name, CameraFields& camera) {
   }
   const cv::Size delivered(roi.width / binning.width, roi.height / binning.height);
   if (delivered.width == 0 || delivered.height == 0) {
-    refuse(name, "binning of " + std::to_string(binning.width) + "x" + std::to_string(binning.height) +
-                     " leaves nothing of the image of " + calibrated + "; set it to what the camera does");
+    refuse(name, "binning of " + sizeText(binning) + " leaves nothing of the image of " + calibrated +
+                     "; set it to what the camera does");
   }
   camera.roi = cv::Rect();
   camera.binning = cv::Size();

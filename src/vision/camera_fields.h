@@ -19,4 +19,9 @@ struct CameraFields {
   cv::Rect roi;      ///< part of the calibrated image that is delivered; all 0: all of it
 };
 
+/// "640x480"
+inline std::string sizeText(const cv::Size& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
 }  // namespace stereo_nav::vision

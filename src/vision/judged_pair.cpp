@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kShortestBaseline_m = 0.02, kLongestBaseline_m = 2.0;
 
-std::string sizeText(const cv::Size& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 bool isLikelyBaseline(double baseline_m) {
   return baseline_m >= kShortestBaseline_m && baseline_m <= kLongestBaseline_m;
 }

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <opencv2/calib3d.hpp>
 #include <set>
 
 #include "stereo_nav/core/input_error.h"
@@ -13,11 +14,12 @@ namespace stereo_nav::vision {
 namespace {
 
 constexpr const char* kPlumbBob = "plumb_bob";
+constexpr const char* kRationalPolynomial = "rational_polynomial";
 constexpr const char* kEquidistant = "equidistant";
 
 const std::map<std::string, std::set<std::size_t>>& coefficientCounts() {
   static const std::map<std::string, std::set<std::size_t>> counts = {
-      {kPlumbBob, {4, 5}}, {"rational_polynomial", {8, 12, 14}}, {kEquidistant, {4}}};
+      {kPlumbBob, {4, 5}}, {kRationalPolynomial, {8, 12, 14}}, {kEquidistant, {4}}};
   return counts;
 }
 
@@ -89,6 +91,25 @@ bool isRectified(const CameraFields& camera) {
     if (!(raw[2] > 0.0 && moved_px < kMoved_px)) return false;
   }
   return true;
+}
+
+RawPixels rawPixels(const CameraFields& camera) {
+  const std::size_t count = camera.D.size();
+  const bool equidistant = camera.distortion_model == kEquidistant && count == 4;
+  const bool polynomial = camera.distortion_model == kRationalPolynomial ||
+                          camera.distortion_model == kPlumbBob || camera.distortion_model.empty();
+  const bool complete = count == 0 || count == 4 || count == 5 || count == 8 || count == 12 || count == 14;
+  RawPixels raw;
+  if (!equidistant && (!polynomial || !complete)) return raw;
+  const cv::Matx33d P = camera.P.get_minor<3, 3>(0, 0);
+  if (equidistant) {
+    cv::fisheye::initUndistortRectifyMap(camera.K, camera.D, camera.R, P, camera.size, CV_32FC1, raw.columns,
+                                         raw.rows);
+  } else {
+    cv::initUndistortRectifyMap(camera.K, camera.D, camera.R, P, camera.size, CV_32FC1, raw.columns,
+                                raw.rows);
+  }
+  return raw;
 }
 
 void normaliseLens(const std::string& name, CameraFields& camera, std::vector<std::string>& notes) {

@@ -45,7 +45,7 @@ std::optional<Options> parse(int argc, char** argv) {
   std::string size = "8x6";
   po::options_description visible(helpHeading(
       "usage: check_calibration [INPUT] [options]",
-      "Measures on views of a checkerboard how good a stereo calibration is, and where the board stands.  "
+      "Measures on views of a checkerboard how good a stereo calibration is, and where the board stands. "
       "INPUT is a folder with left01.png, right01.png, ... (or left/01.png, right/01.png), or a bag with "
       "raw images. Without INPUT it listens to camera/{left,right}/{image_raw,camera_info}. Exit status: 0 "
       "good, 1 poor, 2 input that cannot be used."));

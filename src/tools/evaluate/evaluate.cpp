@@ -1,4 +1,5 @@
 // Runs the odometry on a recording, without a master, and writes trajectory, figures and report.
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -37,9 +38,7 @@ void printValue(const char* name, double value, const char* unit) {
 std::string lengthsText(const std::vector<double>& lengths_m) {
   std::string text;
   for (const double length_m : lengths_m) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%g", length_m);
-    text += (text.empty() ? "% over " : ", ") + std::string(number);
+    text += fmt::format("{}{:g}", text.empty() ? "% over " : ", ", length_m);
   }
   return text.empty() ? "%" : text + " m";
 }
@@ -88,8 +87,10 @@ void printSummary(const eval::Evaluation& evaluation, const eval::TimingSummary&
 }
 
 /// Exit status: 3 when most of the recording has no pose.
-int writeResults(const EvaluateOptions& options, const EvaluationRun& run) {
+int writeResults(const EvaluateOptions& options, EvaluationRun run) {
   const eval::Evaluation evaluation = eval::evaluate(run.input);
+  if (const auto frame = eval::wrongTruthFrame(run.input, evaluation.summary))
+    run.input.notes.push_back(*frame);
   const eval::TimingSummary timing = eval::summariseTiming(run.timings);
   const std::string folder = options.output + "/";
   writeFileAtomically(folder + "trajectory.tum", toTum(eval::estimatedTrajectory(run.input)));
@@ -100,9 +101,6 @@ int writeResults(const EvaluateOptions& options, const EvaluationRun& run) {
   const auto warning = eval::writeReport(options.output, evaluation, run.input, timing);
   printSummary(evaluation, timing, run.unpaired_images);
   for (const std::string& note : run.input.notes) std::fprintf(stderr, "evaluate: note: %s\n", note.c_str());
-  if (const auto frame = eval::wrongTruthFrame(run.input, evaluation.summary)) {
-    std::fprintf(stderr, "evaluate: %s\n", frame->c_str());
-  }
   if (warning) std::fprintf(stderr, "evaluate: %s\n", warning->c_str());
   std::printf("results in %s\n", options.output.c_str());
   const eval::EvaluationSummary& summary = evaluation.summary;

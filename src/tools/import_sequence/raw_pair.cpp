@@ -10,6 +10,7 @@
 #include "ros/judged_infos.h"
 #include "stereo_nav/core/input_error.h"
 #include "tools/import_sequence/rectified_camera.h"
+#include "vision/lens_model.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -19,18 +20,9 @@ namespace models = sensor_msgs::distortion_models;
 class RectifiedFrames : public FrameReader {
  public:
   RectifiedFrames(std::unique_ptr<FrameReader> frames, const sensor_msgs::CameraInfo& info)
-      : frames_(std::move(frames)), size_(static_cast<int>(info.width), static_cast<int>(info.height)) {
-    const cv::Matx33d K(info.K.data());
-    const cv::Matx33d R(info.R.data());
-    const cv::Matx34d P(info.P.data());
-    const cv::Matx33d K_rectified = P.get_minor<3, 3>(0, 0);
-    const cv::Mat D(info.D, true);
-    if (info.distortion_model == models::EQUIDISTANT) {
-      cv::fisheye::initUndistortRectifyMap(K, D, R, K_rectified, size_, CV_32FC1, columns_, rows_);
-    } else {
-      cv::initUndistortRectifyMap(K, D, R, K_rectified, size_, CV_32FC1, columns_, rows_);
-    }
-  }
+      : frames_(std::move(frames)),
+        size_(static_cast<int>(info.width), static_cast<int>(info.height)),
+        raw_(vision::rawPixels(ros_io::toFields(info))) {}
 
   std::size_t size() const override { return frames_->size(); }
 
@@ -38,28 +30,22 @@ class RectifiedFrames : public FrameReader {
     cv::Mat image = frames_->read(index);
     if (image.size() != size_) return image;  // refused where the bag is written
     cv::Mat rectified;
-    cv::remap(image, rectified, columns_, rows_, cv::INTER_LINEAR);
+    cv::remap(image, rectified, raw_.columns, raw_.rows, cv::INTER_LINEAR);
     return rectified;
   }
 
  private:
   std::unique_ptr<FrameReader> frames_;
   cv::Size size_;
-  cv::Mat columns_;
-  cv::Mat rows_;
+  vision::RawPixels raw_;
 };
 
-/// What image_proc rectifies by itself. It copies images whose coefficients are all 0, whatever R says.
+/// Whether image_proc does the right thing by itself. It copies images whose coefficients are all 0, whatever
+/// R says.
 bool isRectifiedDownstream(const sensor_msgs::CameraInfo& info) {
-  const bool bends = std::any_of(info.D.begin(), info.D.end(), [](double value) { return value != 0.0; });
-  return info.distortion_model != models::EQUIDISTANT && bends && info.D.size() <= 8;
-}
-
-bool isRectified(const sensor_msgs::CameraInfo& info) {
-  const bool bends = std::any_of(info.D.begin(), info.D.end(), [](double value) { return value != 0.0; });
-  return !bends && info.distortion_model != models::EQUIDISTANT &&
-         cv::norm(cv::Matx33d(info.R.data()) - cv::Matx33d::eye()) < 1e-9 &&
-         cv::norm(cv::Matx33d(info.K.data()) - cv::Matx34d(info.P.data()).get_minor<3, 3>(0, 0)) < 1e-6;
+  const vision::CameraFields camera = ros_io::toFields(info);
+  return vision::isRectified(camera) ||
+         (info.distortion_model != models::EQUIDISTANT && vision::bends(camera) && info.D.size() <= 8);
 }
 
 sensor_msgs::CameraInfo toInfo(const RawLens& lens, const cv::Size& size, const cv::Matx33d& R,
@@ -107,7 +93,6 @@ void useRectification(const RectifyingPair& pair, Sequence& sequence) {
   sequence.left.info = judged.left;
   sequence.right.info = judged.right;
   if (isRectifiedDownstream(pair.left) && isRectifiedDownstream(pair.right)) return;
-  if (isRectified(pair.left) && isRectified(pair.right)) return;
   sequence.notes.push_back(pair.source +
                            ": image_proc does not rectify with such a calibration; the images are " +
                            "rectified while they are imported");

@@ -38,21 +38,20 @@ struct RectifyingPair {
 };
 
 /// Calibration of Kalibr (`camchain.yaml`, `*camchain*.yaml`: cam0 is the left camera) or of OpenCV's
-/// stereo_calib
-/// (`intrinsics.yml` with M1, D1, M2, D2 and `extrinsics.yml` with R, T) in a folder; nothing where there is
-/// none. Throws InputError that names the file: unknown model, wrong number of coefficients, no rotation,
-/// cameras swapped, baseline outside 2 cm to 2 m.
+/// stereo_calib (`intrinsics.yml` with M1, D1, M2, D2 and `extrinsics.yml` with R, T) in a folder; nothing
+/// where there is none. Throws InputError that names the file where it cannot be read or rectified: unknown
+/// model, wrong number of coefficients, no rotation, cameras swapped.
 std::optional<RawPair> readRawPair(const std::string& folder);
 
 /// `left.yaml` and `right.yaml` of ROS in a folder; nothing where there is none. Throws InputError.
 std::optional<RectifyingPair> readRosPair(const std::string& folder);
 
-/// Finds the rectification of the pair and gives it to the sequence, see useRectification().
+/// Finds the rectification of the pair and gives it to the sequence, see useRectification(), which judges it.
 void useRawPair(const RawPair& pair, Sequence& sequence);
 
-/// Gives both camera_infos to the sequence. Images of lenses that image_proc does not rectify (equidistant,
-/// more than eight coefficients, none but a rotation) are rectified while they are read, and the camera_infos
-/// are those of the rectified pair.
+/// Judges both camera_infos (vision::judgePair(), InputError) and gives them to the sequence. Images of
+/// lenses that image_proc does not rectify (equidistant, more than eight coefficients, none but a rotation)
+/// are rectified while they are read, and the camera_infos are those of the rectified pair.
 void useRectification(const RectifyingPair& pair, Sequence& sequence);
 
 }  // namespace stereo_nav::tools

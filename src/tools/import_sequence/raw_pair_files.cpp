@@ -117,13 +117,6 @@ void check(const RawPair& pair) {
     if (lens->K(0, 0) > 0.0 && lens->K(1, 1) > 0.0) continue;
     throw InputError(pair.source + ": a focal length is not above 0; calibrate the pair again");
   }
-  const double baseline_m = cv::norm(pair.t_right_left);
-  constexpr double kShortest_m = 0.02, kLongest_m = 2.0;
-  if (!(baseline_m >= kShortest_m && baseline_m <= kLongest_m)) {
-    throw InputError(
-        pair.source + ": the cameras are " + std::to_string(baseline_m) +
-        " m apart, expected are 0.02 to 2 m; was the size of the board's squares given in metres?");
-  }
   // The left camera lies to the left of the right one, in the right one's axes.
   if (pair.t_right_left[0] < 0.0) return;
   throw InputError(pair.source +
