@@ -39,7 +39,7 @@ def draw(picture, estimate, truth):
         return [(x, y) for _, x, y in path]
 
     plots.lines(picture, "x (m)", "y (m)",
-                [("truth", "lines ls 6", top_view(truth)), ("odometry", "lines ls 1", top_view(estimate)),
+                [("truth", "lines lw 6 lc rgb '#c3ccd4'", top_view(truth)), ("odometry", "lines ls 1", top_view(estimate)),
                  ("way-points", "points ls 2 pt 6", thesis_drives.WAYPOINTS)], "set size ratio -1\n", height_px=520)
 
 
