@@ -11,8 +11,6 @@ namespace {
 
 /// Time over which rate and jitter are measured.
 constexpr double kReportPeriod_s = 5.0;
-/// A silent port is opened again after this time; some adapters need it.
-constexpr double kReopenSilent_s = 5.0;
 
 }  // namespace
 
@@ -30,6 +28,8 @@ void ImuDeviceParams::describe(ParameterVisitor& visitor) {
   visitor.real("latency_s", latency_s, {-1.0, 1.0}, "s",
                "age of a measurement when the module begins to send it; subtracted from the stamps");
   visitor.real("retry_s", retry_s, {0.05, 60.0}, "s", "time between attempts to open the port");
+  visitor.real("reopen_silent_s", reopen_silent_s, {0.1, 3600.0}, "s",
+               "a port that is silent for this long is opened anew, which some adapters need");
   visitSection(visitor, "gate", gate);
   visitSection(visitor, "stamps", stamps);
 }
@@ -58,7 +58,7 @@ void ImuDevice::poll(double timeout_s, const Sink& sink) {
 }
 
 void ImuDevice::tryOpen(double now_s) {
-  next_attempt_s_ = now_s + std::max(params_.retry_s, kReopenSilent_s);
+  next_attempt_s_ = now_s + std::max(params_.retry_s, params_.reopen_silent_s);
   try {
     port_ = std::make_unique<SerialPort>(finder_.locate(), params_.baud_rate);
   } catch (const SerialError& error) {
@@ -90,7 +90,7 @@ void ImuDevice::readOnce(double timeout_s, const Sink& sink) {
   const std::lock_guard<std::mutex> lock(mutex_);
   link_.received(size, now_s);
   status_.counters = decoder_->counters();
-  if (link_.silentFor_s(now_s) > kReopenSilent_s && now_s > next_attempt_s_) {
+  if (link_.silentFor_s(now_s) > params_.reopen_silent_s && now_s > next_attempt_s_) {
     port_.reset();
     next_attempt_s_ = now_s;
   }

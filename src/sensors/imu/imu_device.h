@@ -21,6 +21,7 @@ struct ImuDeviceParams {
   AngleOrder angle_order = AngleOrder::kYawPitchRoll;
   double latency_s = 0.0;
   double retry_s = 0.5;
+  double reopen_silent_s = 5.0;
   AngleGateParams gate;
   StampFilterParams stamps;
 
