@@ -56,6 +56,9 @@ $unit || steps+=("tests of the whole graph")
 ! $demo || steps+=("the demo")
 ! $sanitize || steps+=("build under address,undefined" "unit tests under address,undefined")
 ! $tsan || steps+=("build under thread" "unit tests under thread")
+asan=("$build_dir-asan" "address,undefined" stereo_nav_unit_tests unit)  # folder, sanitizers, target, label
+thread=("$build_dir-tsan" thread stereo_nav_tsan_tests tsan)
+beside=""   # the process of build_beside
 results=()  # folders that the summary reads
 took=()     # "STEP=SECONDS" of what is done
 seconds_file=$build_dir/test_seconds.txt
@@ -119,11 +122,36 @@ demo() {
   fi
 }
 
-# build_sanitized STEP BUILD_DIR SANITIZERS TARGET: unit tests only, since the nodes of ROS are not instrumented.
+# Unit tests only, since the nodes of ROS are not instrumented. The normal build checks the warnings; on instrumented code
+# GCC gives false ones.
+configure_sanitized() { configure "$1" -DSTEREO_NAV_SANITIZE="$2" -DSTEREO_NAV_WERROR=OFF; }
+
+# build_sanitized STEP BUILD_DIR SANITIZERS TARGET
 build_sanitized() {
-  # The normal build checks the warnings; on instrumented code GCC gives false ones.
-  must "$2" "configure" configure "$2" -DSTEREO_NAV_SANITIZE="$3" -DSTEREO_NAV_WERROR=OFF &&
+  must "$2" "configure" configure_sanitized "$2" "$3" &&
     must "$2" "build" build "$1" cmake --build "$2" --parallel "$(nproc)" --target "$4"
+}
+
+# build_beside [BUILD_DIR SANITIZERS TARGET]...: begins these builds in the background, where they give way to the tests of
+# the whole graph, which mostly wait. Their own steps do what is left when these tests end, and say what fails.
+build_beside() {
+  set -m  # a process group of its own, which end_builds_beside ends
+  (
+    renice -n 19 "$BASHPID"
+    while [[ $# -gt 0 ]]; do
+      if configure_sanitized "$1" "$2"; then cmake --build "$1" --target "$3" || true; fi
+      shift 3
+    done
+  ) >"$build_dir/build_beside.log" 2>&1 &
+  beside=$!
+  set +m
+}
+
+end_builds_beside() {
+  [[ -n $beside ]] || return 0
+  kill -TERM -- "-$beside" 2>/dev/null || true
+  wait "$beside" 2>/dev/null || true
+  beside=""
 }
 
 # sanitized_tests BUILD_DIR SANITIZERS TARGET LABEL
@@ -134,6 +162,7 @@ sanitized_tests() {
 }
 
 # Everything that ROS writes stays in the build folder; no node asks a name server who this machine is.
+trap end_builds_beside EXIT
 export ROS_HOME=$build_dir/ros_home ROS_HOSTNAME=localhost
 unset ROS_IP ROS_NAMESPACE
 fresh_results "$build_dir"
@@ -143,7 +172,12 @@ scope=--tests
 if timed "${steps[0]}" must "$build_dir" "build" build "${steps[0]}" "$STEREO_NAV_ROOT/scripts/build.sh" $scope "$build_dir"; then
   timed "unit tests" run_ctest "unit tests" "$build_dir" unit -L '^unit$' --parallel "$(nproc)"
   if ! $unit; then
+    builds=()
+    ! $sanitize || builds+=("${asan[@]:0:3}")
+    ! $tsan || builds+=("${thread[@]:0:3}")
+    [[ ${#builds[@]} -eq 0 ]] || build_beside "${builds[@]}"
     timed "tests of the whole graph" run_ctest "tests of the whole graph" "$build_dir" graph -LE '^unit$' --parallel "$(nproc)"
+    end_builds_beside
   fi
   if $lint; then timed "checks without a compiler" tap lint "$STEREO_NAV_ROOT/scripts/lint.sh"; fi
   if $install; then
@@ -152,8 +186,8 @@ if timed "${steps[0]}" must "$build_dir" "build" build "${steps[0]}" "$STEREO_NA
   if $demo; then timed "the demo" demo; fi
   export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1:strict_string_checks=1}
   export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
-  if $sanitize; then sanitized_tests "$build_dir-asan" address,undefined stereo_nav_unit_tests unit; fi
-  if $tsan; then sanitized_tests "$build_dir-tsan" thread stereo_nav_tsan_tests tsan; fi
+  if $sanitize; then sanitized_tests "${asan[@]}"; fi
+  if $tsan; then sanitized_tests "${thread[@]}"; fi
 fi
 
 say "summary"

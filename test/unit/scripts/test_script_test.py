@@ -15,6 +15,7 @@ PRETEND = {
     'BASH_FUNC_ctest%%': '''() {
         if [[ "$*" == *--show-only* ]]; then echo '{"tests": [{"name": "first"}, {"name": "second"}]}'; return; fi
         echo "ctest $*" >>"$CALLS"
+        [[ "$*" != *-LE* || -z $BESIDE ]] || until grep -q -- "$BESIDE" "$CALLS"; do sleep 0.01; done
         echo "1/2 Test #1: first .....   Passed    1.50 sec"
         echo "2/2 Test #2: second ....***Failed    0.50 sec"
         return 8
@@ -28,8 +29,9 @@ class TestScriptTest(unittest.TestCase):
         self.build = Path(folder.name) / 'build'
         self.calls = Path(folder.name) / 'calls'
 
-    def run_script(self, *arguments, broken='nothing'):
-        environment = {**os.environ, **PRETEND, 'CALLS': str(self.calls), 'BROKEN': broken, 'STEREO_NAV_FAIL_ON_SKIP': '0'}
+    def run_script(self, *arguments, broken='nothing', beside=''):
+        environment = {**os.environ, **PRETEND, 'CALLS': str(self.calls), 'BROKEN': broken, 'BESIDE': beside,
+                       'STEREO_NAV_FAIL_ON_SKIP': '0'}
         run = subprocess.run([SCRIPT, *arguments, self.build], env=environment, stdout=subprocess.PIPE,
                              stderr=subprocess.STDOUT, universal_newlines=True, check=False)
         return run.stdout.splitlines(), run.returncode, self.calls.read_text() if self.calls.exists() else ''
@@ -58,6 +60,15 @@ class TestScriptTest(unittest.TestCase):
                          ['ctest -L ^unit$', 'ctest -LE ^unit$', 'ctest -R _gtest_ -L ^unit$', 'ctest -R _gtest_ -L ^tsan$'])
         self.assertIn('-DSTEREO_NAV_SANITIZE=thread', calls)
         self.assertEqual(lines[-1], '4 passed, 4 failed, 0 skipped')
+
+    def test_the_builds_with_sanitizers_begin_beside_the_graph(self):
+        _, _, calls = self.run_script('--sanitize', '--tsan', beside='build-tsan --target stereo_nav_tsan_tests')
+        graph = calls.index('ctest -LE')
+        self.assertLess(graph, calls.index('ctest -R'))
+        for kind, target in (('asan', 'unit'), ('tsan', 'tsan')):
+            self.assertIn(f'cmake --build {self.build}-{kind} --target stereo_nav_{target}_tests\n', calls)
+            self.assertIn(f'cmake --build {self.build}-{kind} --parallel {os.cpu_count()} --target stereo_nav_{target}_tests\n',
+                          calls[graph:])
 
     def test_a_failed_build_is_a_failure_and_its_duration_is_not_learnt(self):
         lines, status, calls = self.run_script('--unit', broken='--build')
