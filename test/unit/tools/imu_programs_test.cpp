@@ -26,7 +26,7 @@ imu::ModuleAngles anglesAt(double time_s) {
   return {wrapDegrees(160.0 + 30.0 * time_s), 4.0 * std::sin(time_s), -3.0 * std::sin(2.0 * time_s)};
 }
 
-constexpr double kStart_s = 1000.0, kDuration_s = 1.5, kPeriod_s = 0.01;
+constexpr double kStart_s = 1000.0, kDuration_s = 1.5, kSamplePeriod_s = 0.01;
 
 class ImuPrograms : public testing::Test {
  protected:
@@ -37,7 +37,7 @@ class ImuPrograms : public testing::Test {
 
   void writeTum(const std::string& name) const {
     Trajectory trajectory;
-    for (double t = 0.0; t < kDuration_s + 1.0; t += kPeriod_s) {
+    for (double t = 0.0; t < kDuration_s + 1.0; t += kSamplePeriod_s) {
       StampedPose pose;
       pose.time_s = kStart_s + t;
       pose.T_world_body.linear() = imu::orientationFromModule(anglesAt(t)).toRotationMatrix();
@@ -51,7 +51,7 @@ class ImuPrograms : public testing::Test {
     rosbag::Bag bag(file(name), rosbag::bagmode::Write);
     std::mt19937 random(1);
     std::normal_distribution<double> noise(0.0, 0.001);
-    for (double t = 0.0; t < duration_s; t += kPeriod_s) {
+    for (double t = 0.0; t < duration_s; t += kSamplePeriod_s) {
       const auto angles = moving ? anglesAt(t) : imu::ModuleAngles{drift_deg_s * t, 1.0, 2.0};
       const auto q = imu::orientationFromModule(angles);
       sensor_msgs::Imu message;
