@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "eval/alignment.h"
+#include "eval/consistency.h"
 #include "eval/json_text.h"
 #include "eval/metrics.h"
 #include "stereo_nav/core/input_error.h"
@@ -135,6 +136,7 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
     frame.reason = record.reason;
     frame.features = record.features;
     frame.inliers = record.inliers;
+    frame.pose_covariance = record.pose_covariance;
     frame.position_m = T_odom_base[i].translation();
     evaluation.frames.push_back(frame);
     summary.frames_lost += frame.lost ? 1 : 0;
@@ -144,6 +146,16 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
   summary.features_mean = features / static_cast<double>(summary.frames);
   if (summary.frames > 1) summary.inliers_mean = inliers / static_cast<double>(summary.frames - 1);
   return evaluation;
+}
+
+JsonObject toJson(const Nees& nees) {
+  JsonObject json;
+  json.add("mean", nees.mean);
+  json.add("translation", nees.translation);
+  json.add("rotation", nees.rotation);
+  json.add("inside_95_percent", nees.inside_95_percent);
+  json.add("pairs", nees.pairs);
+  return json;
 }
 
 }  // namespace
@@ -157,6 +169,10 @@ Evaluation evaluate(const EvaluationInput& input) {
   evaluation.summary.frames_with_ground_truth = associated.frames.size();
   addCameraErrors(associated, input.T_base_camera, evaluation);
   addBaseErrors(associated, evaluation);
+  if (input.relative_covariance) {
+    for (std::size_t k = 0; k < kNeesIntervals_s.size(); ++k)
+      evaluation.summary.nees[k] = neesOver(kNeesIntervals_s[k], input);
+  }
   return evaluation;
 }
 
@@ -197,6 +213,10 @@ std::string toJson(const EvaluationSummary& summary) {
   json.add("config", summary.config);
   json.add("input", summary.input);
   json.add("frames_with_ground_truth", summary.frames_with_ground_truth);
+  JsonObject intervals;
+  for (std::size_t k = 0; k < kNeesIntervals_s.size(); ++k)
+    intervals.add(fmt::format("{:g}", kNeesIntervals_s[k]), toJson(summary.nees[k]));
+  json.add("nees", intervals);
   return json.text() + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/angles.h"
 #include "stereo_nav/eval/timing.h"
 
 namespace stereo_nav::eval {
@@ -123,16 +124,21 @@ Figure heightView(const Evaluation& evaluation) {
 
 Figure errorsOverTime(const Evaluation& evaluation) {
   const auto errors = [](const FrameErrors& frame) -> Row {
-    return {frame.time_s, frame.absolute_error_m, frame.rotation_error_deg};
+    Row row{frame.time_s, frame.absolute_error_m, frame.rotation_error_deg, kNone, kNone};
+    if (!frame.pose_covariance) return row;
+    row[3] = 3.0 * std::sqrt(frame.pose_covariance->topLeftCorner<3, 3>().trace());
+    row[4] = 3.0 * std::sqrt(frame.pose_covariance->bottomRightCorner<3, 3>().trace()) * kDegPerRad;
+    return row;
   };
   return {
       "error",
       "Error over time. Position: of the left camera, after SE(3) alignment without scale (what the absolute "
-      "error sums up). Rotation: with the first poses aligned, so that drift grows from zero.",
+      "error sums up). Rotation: with the first poses aligned, so that drift grows from zero. "
+      "Grey: three standard deviations of the published covariance, which both are to stay below nearly always.",
       header("error", 440) + dataBlock("errors", evaluation.frames, errors) + timeAxis(evaluation) +
           "unset xlabel\nset multiplot layout 2,1\nset yrange [0:*]\nset lmargin 10\nunset key\n"
-          "set ylabel 'position [m]'\nplot $errors using 1:2 with lines ls 1\n"
-          "set xlabel 'time [s]'\nset ylabel 'rotation [deg]'\nplot $errors using 1:3 with lines ls 5\n"
+          "set ylabel 'position [m]'\nplot $errors using 1:4 with lines ls 2, $errors using 1:2 with lines ls 1\n"
+          "set xlabel 'time [s]'\nset ylabel 'rotation [deg]'\nplot $errors using 1:5 with lines ls 2, $errors using 1:3 with lines ls 5\n"
           "unset multiplot\n"};
 }
 

@@ -14,12 +14,9 @@ class JsonObject {
   void add(const std::string& key, const Value& value) {
     addText(key, textOf(value));
   }
-  void add(const std::string& key, const JsonObject& value) { addText(key, value.text(1)); }
+  void add(const std::string& key, const JsonObject& value) { addText(key, value.text()); }
 
-  std::string text(int depth = 0) const {
-    const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
-    return members_.empty() ? "{}" : "{" + indented(indent + "  ") + "\n" + indent + "}";
-  }
+  std::string text() const { return members_.empty() ? "{}" : "{" + indented() + "\n}"; }
 
  private:
   /// In text that is not valid UTF-8 (file names may hold any bytes) the invalid bytes are replaced.
@@ -29,10 +26,13 @@ class JsonObject {
   void addText(const std::string& key, const std::string& value) {
     members_.push_back(textOf(key) + ": " + value);
   }
-  std::string indented(const std::string& indent) const {
+  /// Every line of every member two columns to the right. The only line ends are those between members.
+  std::string indented() const {
     std::string text;
-    for (const auto& member : members_)
-      text.append(text.empty() ? "\n" : ",\n").append(indent).append(member);
+    for (const auto& member : members_) {
+      text += text.empty() ? "\n  " : ",\n  ";
+      for (const char c : member) text += c == '\n' ? std::string("\n  ") : std::string(1, c);
+    }
     return text;
   }
 

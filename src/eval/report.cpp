@@ -103,6 +103,22 @@ std::string accuracyTable(const EvaluationSummary& s) {
          "</table>\n";
 }
 
+/// Nothing without ground truth.
+std::string consistencyTable(const EvaluationSummary& s) {
+  std::string rows;
+  for (std::size_t k = 0; k < kNeesIntervals_s.size(); ++k) {
+    const Nees& nees = s.nees[k];
+    if (nees.pairs == 0) continue;
+    rows +=
+        row(fmt::format("NEES over {:g} s", kNeesIntervals_s[k]), number(nees.mean, 2, ""),
+            fmt::format(
+                "6 is expected; translation {:.2f}, rotation {:.2f} (3 each); {:.0f} % of {} pieces inside "
+                "the ellipsoid of 95 %",
+                nees.translation, nees.rotation, nees.inside_95_percent, nees.pairs));
+  }
+  return rows.empty() ? "" : "<h2>Consistency of the covariances</h2>\n<table>\n" + rows + "</table>\n";
+}
+
 std::string timingTable(const TimingSummary& timing) {
   std::string text = "<h2>Time</h2>\n<table>\n" +
                      row("frame, median", number(timing.median_ms, 2, "ms"),
@@ -166,8 +182,9 @@ std::optional<std::string> writeReport(const std::string& directory, const Evalu
                           "<p class=\"what\"><code>" +
                           htmlEscaped(summary.input) + "</code> with <code>" + htmlEscaped(summary.config) +
                           "</code></p>\n" + tiles(summary, timing) + note + "<h2>Pictures</h2>\n" + pictures +
-                          accuracyTable(summary) + lossTable(lossesOf(evaluation.frames)) +
-                          timingTable(timing) + "</main>\n</body>\n</html>\n");
+                          accuracyTable(summary) + consistencyTable(summary) +
+                          lossTable(lossesOf(evaluation.frames)) + timingTable(timing) +
+                          "</main>\n</body>\n</html>\n");
   return warning;
 }
 

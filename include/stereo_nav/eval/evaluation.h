@@ -1,11 +1,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "stereo_nav/core/lie.h"
 #include "stereo_nav/core/trajectory.h"
 #include "stereo_nav/eval/timing.h"
 
@@ -18,6 +21,7 @@ struct FrameRecord {
   std::string reason;                            ///< why the frame is lost; empty where it is not
   unsigned features = 0;                         ///< number of features of the frame
   unsigned inliers = 0;                          ///< features that agree with the motion found
+  std::optional<Matrix6d> pose_covariance;       ///< of T_odom_base, axes of odom: m, m, m, rad, rad, rad
   FrameTiming timing;                            ///< how long the frame took
 };
 
@@ -30,7 +34,27 @@ struct EvaluationInput {
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< of the left optical frame
   std::string camera_frame;  ///< name of that frame, for messages; may be empty
   Trajectory ground_truth;   ///< of base_link in any fixed frame; empty: no ground truth (see ofOtherBody())
+  double truth_sigma_m =
+      0.0;  ///< noise of the ground truth's poses, each axis, independent from pose to pose
+  double truth_sigma_rad = 0.0;  ///< likewise of their attitudes
+  /// Covariance of the pose of base_link in frame `to` relative to frame `from`, axes of base_link in `to`:
+  /// m, rad. Empty where nothing is known.
+  std::function<Matrix6d(std::size_t from, std::size_t to)> relative_covariance;
 };
+
+/// Whether covariances are as large as the errors: normalised estimation errors squared of relative poses
+/// over disjoint pieces of equal duration.
+struct Nees {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< without a piece
+  double mean = kUnknown;                                                       ///< 6 is expected
+  double translation = kUnknown;        ///< of the translation alone, 3 is expected
+  double rotation = kUnknown;           ///< of the rotation alone, 3 is expected
+  double inside_95_percent = kUnknown;  ///< pieces whose error lies inside the ellipsoid of 95 %, percent
+  std::size_t pairs = 0;                ///< pieces
+};
+
+/// Durations over which Nees are taken, s.
+constexpr std::array<double, 3> kNeesIntervals_s = {0.2, 1.0, 5.0};
 
 /// summary.json. Numbers that cannot be known (no ground truth, path too short) are NaN, `null` in the file.
 ///
@@ -53,14 +77,15 @@ struct EvaluationSummary {
       kUnknown;  ///< distance at the last frame, first poses laid together, of the path
   double rmse_x_m =
       kUnknown;  ///< along an axis of `odom`, first poses laid together, as the thesis reports it
-  double rmse_y_m = kUnknown;                ///< the same along the y axis
-  double mae_x_m = kUnknown;                 ///< mean absolute error along the x axis
-  double mae_y_m = kUnknown;                 ///< the same along the y axis
-  double inliers_mean = kUnknown;            ///< over all frames but the first, which has no motion
-  double features_mean = kUnknown;           ///< over all frames
-  std::string config;                        ///< EvaluationInput::config
-  std::string input;                         ///< EvaluationInput::input
-  std::size_t frames_with_ground_truth = 0;  ///< those the errors are taken over
+  double rmse_y_m = kUnknown;                      ///< the same along the y axis
+  double mae_x_m = kUnknown;                       ///< mean absolute error along the x axis
+  double mae_y_m = kUnknown;                       ///< the same along the y axis
+  double inliers_mean = kUnknown;                  ///< over all frames but the first, which has no motion
+  double features_mean = kUnknown;                 ///< over all frames
+  std::string config;                              ///< EvaluationInput::config
+  std::string input;                               ///< EvaluationInput::input
+  std::size_t frames_with_ground_truth = 0;        ///< those the errors are taken over
+  std::array<Nees, kNeesIntervals_s.size()> nees;  ///< over kNeesIntervals_s
 };
 
 /// One frame as the report draws it.
@@ -74,6 +99,7 @@ struct FrameErrors {
   std::optional<Eigen::Vector3d> ground_truth_m;            ///< base_link in odom, first poses laid together
   double absolute_error_m = EvaluationSummary::kUnknown;    ///< left camera, after SE(3) alignment
   double rotation_error_deg = EvaluationSummary::kUnknown;  ///< first poses laid together
+  std::optional<Matrix6d> pose_covariance;                  ///< FrameRecord::pose_covariance
 };
 
 /// The errors of a run, as a whole and frame by frame.

@@ -42,7 +42,12 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("ground-truth", po::value<std::string>(),
        "TUM trajectory file, or topic in the bag (default: ground_truth/odom if the bag has it)")  //
       ("ground-truth-frame", po::value<std::string>(),
-       "frame whose poses the ground truth gives (default: the topic's child frame, else base_link)")    //
+       "frame whose poses the ground truth gives (default: the topic's child frame, else base_link)")  //
+      ("ground-truth-sigma-m", po::value<double>(&options.truth_sigma_m),
+       "noise of the ground truth's positions, which the covariances are not to be blamed for: about 0.001 for motion "
+       "capture, 0.02 for GPS with an inertial system")  //
+      ("ground-truth-sigma-deg", po::value<double>(&options.truth_sigma_deg),
+       "likewise of its attitudes: about 0.05")                                                          //
       ("output", po::value<std::string>(), "folder for the results (default: NAME_OF_BAG_evaluation)")   //
       ("start", po::value<double>(&options.part.start_s), "seconds of the recording to skip")            //
       ("duration", po::value<double>(&options.part.duration_s), "seconds of the recording to use")       //

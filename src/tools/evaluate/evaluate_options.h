@@ -15,7 +15,9 @@ struct EvaluateOptions {
   std::optional<std::string>
       ground_truth;  ///< TUM file or topic; absent: ground_truth/odom if the bag has it
   std::optional<std::string> ground_truth_frame;
-  std::string output;  ///< folder
+  double truth_sigma_m = 0.0;    ///< noise of the ground truth, for the consistency of the covariances
+  double truth_sigma_deg = 0.0;  ///< likewise of its attitudes
+  std::string output;            ///< folder
   ros_io::RecordingOptions part;
   int repeat = 1;
 };

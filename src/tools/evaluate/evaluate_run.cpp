@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "core/angles.h"
 #include "core/base_pose.h"
 #include "ros/package_files.h"
 #include "ros/stereo_processing.h"
@@ -11,6 +12,7 @@
 #include "stereo_nav/odometry/method/odometry_config.h"
 #include "stereo_nav/ros/topics.h"
 #include "tools/evaluate/recorded_disparity.h"
+#include "tools/evaluate/relative_covariance.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -70,6 +72,7 @@ class Run {
         processing_(processing),
         config_(config),
         T_base_camera_(T_base_camera),
+        uncertainty_(T_base_camera),
         odometry_(odometry::makeOdometry(config_, processing.calibration(), R_camera_imu)) {
     if (disparity_bag && config_.disparityUse() != odometry::DisparityUse::kNone)
       recorded_disparity_.emplace(*disparity_bag);
@@ -96,6 +99,7 @@ class Run {
       record.timing.stages_ms.emplace_back(stage.stage, stage.milliseconds);
     }
     record.time_s = pair.left_time_s;
+    record.pose_covariance = uncertainty_.add(result, record.time_s);
     if (result.state != odometry::State::kLost)
       record.T_odom_base = basePose(T_base_camera_, result.T_start_camera);
     else
@@ -105,6 +109,9 @@ class Run {
     record.inliers = result.inliers;
     return record;
   }
+
+  /// What the frames told of their uncertainty.
+  RelativeCovariance uncertainty() const { return uncertainty_; }
 
  private:
   /// `latest` is what the thesis' program gets: the map of the frame before, since this one's is still being
@@ -132,6 +139,7 @@ class Run {
   const ros_io::StereoProcessing& processing_;
   odometry::OdometryConfig config_;
   Eigen::Isometry3d T_base_camera_;
+  RelativeCovariance uncertainty_;
   std::unique_ptr<odometry::Odometry> odometry_;
   std::size_t next_imu_ = 0;
   std::optional<RecordedDisparity> recorded_disparity_;
@@ -168,6 +176,8 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.notes = recording.notes();
   run.input.notes.insert(run.input.notes.end(), processing.notes().begin(), processing.notes().end());
   run.input.ground_truth = groundTruthOfBase(options, recording);
+  run.input.truth_sigma_m = options.truth_sigma_m;
+  run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
 
   for (int repetition = 0; repetition < options.repeat; ++repetition) {
     Run pass(recording, processing, config, options.disparity_from, T_base_camera, R_camera_imu);
@@ -177,9 +187,10 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
       run.timings.push_back(frames.back().timing);
       progress(run.timings.size(), recording.pairs() * static_cast<std::size_t>(options.repeat));
     });
-    if (repetition == 0)
+    if (repetition == 0) {
       run.input.frames = std::move(frames);
-    else if (!samePoses(run.input.frames, frames)) {
+      run.input.relative_covariance = pass.uncertainty();
+    } else if (!samePoses(run.input.frames, frames)) {
       throw std::logic_error("two runs on the same recording differ; this is a defect of the odometry");
     }
   }

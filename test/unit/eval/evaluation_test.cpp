@@ -141,6 +141,9 @@ TEST(EvaluationSummary, fileHasFixedKeysAndRoundTripNumbers) {
   summary.segment_lengths_m = {0.5, 1.0};
   summary.config = "a \"quoted\" name";
   summary.input = "x.bag";
+  const std::string no_nees =
+      "      \"mean\": null,\n      \"translation\": null,\n      \"rotation\": null,\n"
+      "      \"inside_95_percent\": null,\n      \"pairs\": 0\n";
   EXPECT_EQ(toJson(summary),
             "{\n"
             "  \"frames\": 3,\n"
@@ -159,8 +162,19 @@ TEST(EvaluationSummary, fileHasFixedKeysAndRoundTripNumbers) {
             "  \"features_mean\": null,\n"
             "  \"config\": \"a \\\"quoted\\\" name\",\n"
             "  \"input\": \"x.bag\",\n"
-            "  \"frames_with_ground_truth\": 0\n"
-            "}\n");
+            "  \"frames_with_ground_truth\": 0,\n"
+            "  \"nees\": {\n"
+            "    \"0.2\": {\n" +
+                no_nees +
+                "    },\n"
+                "    \"1\": {\n" +
+                no_nees +
+                "    },\n"
+                "    \"5\": {\n" +
+                no_nees +
+                "    }\n"
+                "  }\n"
+                "}\n");
   summary.config = "not UTF-8: \xff";
   EXPECT_NE(toJson(summary).find("not UTF-8"), std::string::npos);
 }
@@ -177,11 +191,14 @@ TEST(Evaluation, frameTableLeavesOutWhatIsNotKnown) {
   lost.ground_truth_m = Eigen::Vector3d(2.0, 0.0, 0.125);
   lost.absolute_error_m = 1e-3;
   lost.rotation_error_deg = 3.0;
+  frame.pose_covariance = Matrix6d::Identity();
+  (*frame.pose_covariance)(0, 0) = 0.25;
+  (*frame.pose_covariance)(0, 5) = 0.125;
   const std::string text = toCsv({frame, lost});
   EXPECT_EQ(text.substr(0, text.find(',')), "time_s");
   EXPECT_EQ(text.substr(text.find('\n') + 1),
-            "0.5,0,150,60,1,-0.25,0,,,,,,\n"
-            "0.5,1,150,60,1,-0.25,0,2,0,0.125,0.001,3,\"3 features, \"\"few\"\"\"\n");
+            "0.5,0,150,60,1,-0.25,0,,,,,,,0.25,0,0,0,0,0.125,1,0,0,0,0,1,0,0,0,1,0,0,1,0,1\n"
+            "0.5,1,150,60,1,-0.25,0,2,0,0.125,0.001,3,\"3 features, \"\"few\"\"\",,,,,,,,,,,,,,,,,,,,,\n");
 }
 
 TEST(Losses, framesLostOneAfterAnotherAreOneLossWithItsFirstReason) {

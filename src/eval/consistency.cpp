@@ -1,0 +1,63 @@
+#include "eval/consistency.h"
+
+#include <Eigen/Cholesky>
+
+#include "stereo_nav/core/lie.h"
+
+namespace stereo_nav::eval {
+namespace {
+
+/// 95 % of chi-square with six degrees of freedom.
+constexpr double kChiSquare95 = 12.592;
+
+/// Noise of the relative pose of the truth, axes of its end.
+Matrix6d truthNoise(const EvaluationInput& input, const Eigen::Isometry3d& T_from_to) {
+  Vector6d variances;
+  variances.head<3>().setConstant(input.truth_sigma_m * input.truth_sigma_m);
+  variances.tail<3>().setConstant(input.truth_sigma_rad * input.truth_sigma_rad);
+  const Matrix6d noise = variances.asDiagonal();
+  const Matrix6d carry = adjoint(T_from_to.inverse());
+  return carry * noise * carry.transpose() + noise;
+}
+
+double squared(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {
+  return error.dot(covariance.ldlt().solve(error));
+}
+
+}  // namespace
+
+Nees neesOver(double interval_s, const EvaluationInput& input) {
+  Nees nees;
+  double six = 0.0, translation = 0.0, rotation = 0.0, inside = 0.0;
+  std::optional<std::size_t> from;
+  std::optional<Eigen::Isometry3d> truth_from;
+  for (std::size_t to = 0; to < input.frames.size(); ++to) {
+    const FrameRecord& frame = input.frames[to];
+    if (from && frame.time_s < input.frames[*from].time_s + interval_s - 1e-3) continue;
+    const auto truth_to = frame.T_odom_base ? poseAt(input.ground_truth, frame.time_s) : std::nullopt;
+    if (from && truth_to) {
+      const Eigen::Isometry3d estimate = input.frames[*from].T_odom_base->inverse() * *frame.T_odom_base;
+      const Eigen::Isometry3d truth = truth_from->inverse() * *truth_to;
+      const Vector6d error = logMotion(estimate.inverse() * truth);
+      const Matrix6d covariance = input.relative_covariance(*from, to) + truthNoise(input, estimate);
+      const double value = squared(error, covariance);
+      six += value;
+      translation += squared(error.head<3>(), covariance.topLeftCorner<3, 3>());
+      rotation += squared(error.tail<3>(), covariance.bottomRightCorner<3, 3>());
+      inside += value <= kChiSquare95 ? 1.0 : 0.0;
+      ++nees.pairs;
+    }
+    if (!truth_to) continue;
+    from = to;
+    truth_from = truth_to;
+  }
+  if (nees.pairs == 0) return nees;
+  const auto n = static_cast<double>(nees.pairs);
+  nees.mean = six / n;
+  nees.translation = translation / n;
+  nees.rotation = rotation / n;
+  nees.inside_95_percent = 100.0 * inside / n;
+  return nees;
+}
+
+}  // namespace stereo_nav::eval

@@ -1,0 +1,42 @@
+#include "tools/evaluate/relative_covariance.h"
+
+#include <utility>
+
+#include "core/base_pose.h"
+
+namespace stereo_nav::tools {
+namespace {
+
+/// Begins without any uncertainty but the floor.
+estimation::OdomCovariance started(const Eigen::Isometry3d& T_base_camera) {
+  estimation::OdomCovariance covariance(estimation::UncertaintyParams(), T_base_camera);
+  covariance.start(Eigen::Matrix3d::Identity(), Matrix6d::Zero());
+  return covariance;
+}
+
+}  // namespace
+
+RelativeCovariance::RelativeCovariance(const Eigen::Isometry3d& T_base_camera)
+    : T_base_camera_(T_base_camera), since_start_(started(T_base_camera)) {}
+
+Matrix6d RelativeCovariance::add(odometry::FrameResult result, double time_s) {
+  result.features = {};
+  result.stage_times = {};
+  frames_.push_back({std::move(result), time_s});
+  if (frames_.size() > 1) addMotion(frames_.size() - 1, since_start_);
+  return since_start_.pose(basePose(T_base_camera_, frames_.back().result.T_start_camera).linear());
+}
+
+Matrix6d RelativeCovariance::operator()(std::size_t from, std::size_t to) const {
+  estimation::OdomCovariance covariance = started(T_base_camera_);
+  for (std::size_t i = from + 1; i <= to; ++i) addMotion(i, covariance);
+  return covariance.pose(Eigen::Matrix3d::Identity());
+}
+
+void RelativeCovariance::addMotion(std::size_t frame, estimation::OdomCovariance& covariance) const {
+  const odometry::FrameResult& result = frames_[frame].result;
+  covariance.addMotion(result, basePose(T_base_camera_, result.T_previous_current),
+                       frames_[frame].time_s - frames_[frame - 1].time_s);
+}
+
+}  // namespace stereo_nav::tools
