@@ -137,7 +137,7 @@ build_sanitized() {
 build_beside() {
   set -m  # a process group of its own, which end_builds_beside ends
   (
-    renice -n 19 "$BASHPID"
+    chrt --idle --pid 0 "$BASHPID"
     while [[ $# -gt 0 ]]; do
       if configure_sanitized "$1" "$2"; then cmake --build "$1" --target "$3" || true; fi
       shift 3

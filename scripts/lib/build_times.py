@@ -29,7 +29,9 @@ def compile_once(entry, output, compiler=None, options=()):
     words = [word for word in words if 'ccache' not in word and word != '-Werror']
     words[words.index('-o') + 1] = str(output)
     before = processor_s()
-    subprocess.run([compiler or words[0], *words[1:], *options], cwd=entry['directory'], check=True, stderr=subprocess.DEVNULL)
+    run = subprocess.run([compiler or words[0], *words[1:], *options], cwd=entry['directory'], check=False, stderr=subprocess.DEVNULL)
+    if run.returncode:
+        print(f'{words[-1]} is left out: {compiler or words[0]} does not compile it', file=sys.stderr)
     return processor_s() - before
 
 
@@ -57,8 +59,10 @@ def main(arguments):
             target = re.search(r'CMakeFiles/([^/]+)\.dir/', entry['command']).group(1)
             targets[target] += compile_once(entry, output)
             target_files[target] += 1
+            trace = output.with_suffix('.json')
+            trace.write_text('{"traceEvents": []}')
             compile_once(entry, output, 'clang++', ['-ftime-trace', '-w'])
-            for header, seconds in headers_of(output.with_suffix('.json')):
+            for header, seconds in headers_of(trace):
                 headers[header] += seconds
                 header_files[header] += 1
     total = table('target', targets, target_files)

@@ -2,13 +2,11 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/statistics.h"
 #include "stereo_nav/core/lie.h"
 
 namespace stereo_nav::eval {
 namespace {
-
-/// 95 % of chi-square with six degrees of freedom.
-constexpr double kChiSquare95 = 12.592;
 
 /// Noise of the relative pose of the truth, axes of its end.
 Matrix6d truthNoise(const EvaluationInput& input, const Eigen::Isometry3d& T_from_to) {
@@ -27,6 +25,7 @@ double squared(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) 
 }  // namespace
 
 Nees neesOver(double interval_s, const EvaluationInput& input) {
+  const double inside_95 = chiSquareQuantile(6, 0.95);
   Nees nees;
   double six = 0.0, translation = 0.0, rotation = 0.0, inside = 0.0;
   std::optional<std::size_t> from;
@@ -44,7 +43,7 @@ Nees neesOver(double interval_s, const EvaluationInput& input) {
       six += value;
       translation += squared(error.head<3>(), covariance.topLeftCorner<3, 3>());
       rotation += squared(error.tail<3>(), covariance.bottomRightCorner<3, 3>());
-      inside += value <= kChiSquare95 ? 1.0 : 0.0;
+      inside += value <= inside_95 ? 1.0 : 0.0;
       ++nees.pairs;
     }
     if (!truth_to) continue;

@@ -123,6 +123,7 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
   EvaluationSummary& summary = evaluation.summary;
   summary.input = input.input;
   summary.config = input.config;
+  summary.imu_set_aside = input.imu_set_aside;
   summary.frames = input.frames.size();
   summary.path_length_m =
       pathLength(positions(moved(Eigen::Isometry3d::Identity(), T_odom_base, input.T_base_camera)));
@@ -213,6 +214,7 @@ std::string toJson(const EvaluationSummary& summary) {
   json.add("config", summary.config);
   json.add("input", summary.input);
   json.add("frames_with_ground_truth", summary.frames_with_ground_truth);
+  json.add("imu_set_aside", summary.imu_set_aside);
   JsonObject intervals;
   for (std::size_t k = 0; k < kNeesIntervals_s.size(); ++k)
     intervals.add(fmt::format("{:g}", kNeesIntervals_s[k]), toJson(summary.nees[k]));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "ros/imu_checks.h"
+
 namespace stereo_nav::ros_io {
 namespace {
 
@@ -67,7 +69,9 @@ std::optional<Inbox::Work> Inbox::takeLocked(SteadyTime now) {
   const FrameMessages& next = frames_.front();
   const double needed_s = std::max(next.left_stamp, next.right_stamp).toSec();
   const bool covered = !params_.wait_for_imu || (imu_seen_ && imu_newest_s_ >= needed_s);
-  if (!covered && now < deadline(next)) return std::nullopt;
+  // An IMU with another clock will not cover the frame however long it waits.
+  const bool hopeless = imu_seen_ && imu_newest_s_ < needed_s - kImuOffClock_s;
+  if (!covered && !hopeless && now < deadline(next)) return std::nullopt;
 
   Work work;
   work.frame = next;

@@ -23,7 +23,8 @@ struct InboxParams {
 
 /// Queue between the callbacks, which must return quickly, and the thread that runs the odometry. A frame is
 /// handed out when an IMU sample at or after both its stamps has arrived (so that the attitude at the image
-/// can be interpolated), or when it has waited `imu_wait_s` for one. Thread-safe.
+/// can be interpolated), or when it has waited `imu_wait_s` for one. It does not wait for an IMU whose stamps
+/// lie seconds before the frame's: that one has another clock. Thread-safe.
 ///
 /// Drop rule: when more than `capacity` frames wait, the oldest is dropped and counted.
 class Inbox {

@@ -30,6 +30,7 @@ struct EvaluationInput {
   std::string input;                ///< as named on the command line; goes into the summary
   std::string config;               ///< likewise
   std::vector<FrameRecord> frames;  ///< every input frame, in order of time
+  std::string imu_set_aside;        ///< why the recorded IMU was not used; empty: it was, or there is none
   std::vector<std::string> notes;   ///< what had to be assumed or was left out, one line each
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< of the left optical frame
   std::string camera_frame;  ///< name of that frame, for messages; may be empty
@@ -84,6 +85,7 @@ struct EvaluationSummary {
   double features_mean = kUnknown;                 ///< over all frames
   std::string config;                              ///< EvaluationInput::config
   std::string input;                               ///< EvaluationInput::input
+  std::string imu_set_aside;                       ///< EvaluationInput::imu_set_aside
   std::size_t frames_with_ground_truth = 0;        ///< those the errors are taken over
   std::array<Nees, kNeesIntervals_s.size()> nees;  ///< over kNeesIntervals_s
 };

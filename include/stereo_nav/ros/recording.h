@@ -58,8 +58,13 @@ class Recording {
   std::size_t unpairedImages() const { return unpaired_images_; }
   /// All IMU samples in order of time.
   const std::vector<ImuSample>& imu() const { return imu_; }
-  /// Frame of the IMU's messages; empty if there is no IMU or they name no frame.
-  const std::string& imuFrame() const { return imu_frame_; }
+  /// Frame of the IMU's messages; nothing if there is no IMU, or its messages have no header (the thesis'
+  /// imu_quat).
+  const std::optional<std::string>& imuFrame() const { return imu_frame_; }
+  /// Stamp of the first left image.
+  double firstLeft_s() const { return left_stamps_.front().toSec(); }
+  /// Stamp of the last left image.
+  double lastLeft_s() const { return left_stamps_.back().toSec(); }
 
   /// Pose of frame `source` in frame `target` from the recorded static transforms; nothing if these do not
   /// connect the two frames.
@@ -103,7 +108,7 @@ class Recording {
   sensor_msgs::CameraInfo left_info_;
   sensor_msgs::CameraInfo right_info_;
   std::vector<ImuSample> imu_;
-  std::string imu_frame_;
+  std::optional<std::string> imu_frame_;
   tf2::BufferCore transforms_;
   std::vector<ros::Time> left_stamps_;
   std::vector<ros::Time> right_stamps_;

@@ -1,10 +1,12 @@
 #include "nodes/visual_odometry/odometry_session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
 #include "estimation/levelling.h"
+#include "ros/imu_checks.h"
 #include "ros/setup_checks.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/conversions.h"
@@ -46,6 +48,7 @@ SessionOutput OdometrySession::process(const ros_io::Inbox::Work& work, const Se
   ++frames_processed_;
   if (output.result.state == odometry::State::kLost) ++frames_lost_;
   checkCameraOrder(output);
+  checkImu(output);
   return output;
 }
 
@@ -147,7 +150,8 @@ void OdometrySession::makeOdometry(SessionOutput& output) {
   vision::StereoCalibration calibration = judged_.calibration;
   calibration.left_raw_rows = ros_io::rawRows(judged_.left);
   calibration.right_raw_rows = ros_io::rawRows(judged_.right);
-  odometry_ = odometry::makeOdometry(config_, calibration, T_base_camera_.linear().transpose() * R_base_imu_);
+  odometry_ = std::make_unique<odometry::WatchedOdometry>(
+      config_, calibration, odometry::SensorAxes{T_base_camera_.linear(), R_base_imu_});
   const std::optional<estimation::BaseOdometry> before = std::move(base_);
   base_.emplace(params_.uncertainty, T_base_camera_);
   if (before) base_->start(before->estimate().T_odom_base, before->estimate().pose_covariance);
@@ -206,6 +210,20 @@ void OdometrySession::checkCameraOrder(SessionOutput& output) {
       "image (negative disparity), which is impossible in a correctly ordered rectified pair; depth and "
       "odometry are wrong. Exchange the two cameras' device numbers (left_device, right_device), plugs or "
       "topics";
+}
+
+void OdometrySession::checkImu(SessionOutput& output) {
+  if (imu_frame_.empty()) return;
+  const double ahead_s =
+      imu_history_.newest_s() - std::max(output.images.left_time_s, output.images.right_time_s);
+  if (std::isfinite(ahead_s) && std::abs(ahead_s) > ros_io::kImuOffClock_s)
+    output.warnings["imu_stamps"] = ros_io::imuOffClock(ahead_s);
+  const std::string& problem = odometry_->imuProblem();
+  if (!problem.empty()) {
+    output.warnings["imu"] = "the IMU contradicts the images and is set aside: " + problem;
+    if (imu_problem_.empty()) output.announcements.push_back(output.warnings["imu"]);
+  }
+  imu_problem_ = problem;
 }
 
 }  // namespace stereo_nav::nodes

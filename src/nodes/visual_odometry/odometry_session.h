@@ -12,6 +12,7 @@
 
 #include "core/rotation_history.h"
 #include "nodes/visual_odometry/visual_odometry_params.h"
+#include "odometry/method/watched_odometry.h"
 #include "ros/inbox.h"
 #include "ros/judged_infos.h"
 #include "stereo_nav/odometry/method/odometry_config.h"
@@ -77,6 +78,7 @@ class OdometrySession {
   void level(double time_s, SessionOutput& output);
   bool readImages(const ros_io::FrameMessages& frame, SessionOutput& output) const;
   void checkCameraOrder(SessionOutput& output);
+  void checkImu(SessionOutput& output);
 
   VisualOdometryParams params_;
   odometry::OdometryConfig config_;
@@ -90,11 +92,12 @@ class OdometrySession {
   ros_io::JudgedInfos judged_;
   Eigen::Isometry3d T_base_camera_ = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d R_base_imu_ = Eigen::Matrix3d::Identity();
-  std::unique_ptr<odometry::Odometry> odometry_;  ///< null until the whole setup is known
+  std::unique_ptr<odometry::WatchedOdometry> odometry_;  ///< null until the whole setup is known
 
   std::optional<estimation::BaseOdometry> base_;
   RotationHistory imu_history_;  ///< used for levelling
   bool level_next_ = true;
+  std::string imu_problem_;  ///< why the odometry has set the IMU aside; empty: it has not
   std::optional<vision::CameraOrderCheck> camera_order_;
   double camera_order_checked_s_ = 0.0;
   std::uint64_t frames_processed_ = 0;

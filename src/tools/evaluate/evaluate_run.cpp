@@ -6,10 +6,11 @@
 
 #include "core/angles.h"
 #include "core/base_pose.h"
+#include "odometry/method/watched_odometry.h"
+#include "ros/imu_checks.h"
 #include "ros/package_files.h"
 #include "ros/stereo_processing.h"
 #include "stereo_nav/core/input_error.h"
-#include "stereo_nav/odometry/method/odometry_config.h"
 #include "stereo_nav/ros/topics.h"
 #include "tools/evaluate/recorded_disparity.h"
 #include "tools/evaluate/relative_covariance.h"
@@ -35,15 +36,27 @@ Eigen::Isometry3d requireTransform(const ros_io::Recording& recording, const std
       target + " " + source + "`");
 }
 
-/// Rotation from the IMU to the left camera; identity where there is no IMU to turn.
-Eigen::Matrix3d imuToCamera(const ros_io::Recording& recording, const std::string& bag,
-                            const Eigen::Isometry3d& T_base_camera) {
-  if (recording.imu().empty()) return Eigen::Matrix3d::Identity();
-  // The thesis' header-less orientation is front-left-up: that of base_link, unless tf says otherwise.
-  if (recording.imuFrame().empty()) return T_base_camera.linear().transpose();
-  const Eigen::Isometry3d T_base_imu =
-      requireTransform(recording, bag, ros_io::frames::kBase, recording.imuFrame());
-  return T_base_camera.linear().transpose() * T_base_imu.linear();
+/// Where the IMU sits, and why it is set aside where that cannot be known.
+struct ImuMounting {
+  Eigen::Matrix3d R_base_imu = Eigen::Matrix3d::Identity();
+  std::string problem;  ///< empty: it is used
+};
+
+ImuMounting imuMounting(const ros_io::Recording& recording) {
+  ImuMounting mounting;
+  // The thesis' header-less orientation is front-left-up: that of base_link.
+  if (recording.imu().empty() || !recording.imuFrame()) return mounting;
+  mounting.problem =
+      ros_io::imuStampProblem(recording.imu(), recording.firstLeft_s(), recording.lastLeft_s());
+  if (!mounting.problem.empty()) return mounting;
+  const std::string& frame = *recording.imuFrame();
+  const auto T_base_imu = frame.empty() ? std::nullopt : recording.transform(ros_io::frames::kBase, frame);
+  if (T_base_imu) {
+    mounting.R_base_imu = T_base_imu->linear();
+  } else {
+    mounting.problem = ros_io::missingImuFrame(frame);
+  }
+  return mounting;
 }
 
 Trajectory groundTruthOfBase(const EvaluateOptions& options, const ros_io::Recording& recording) {
@@ -67,13 +80,14 @@ class Run {
  public:
   Run(const ros_io::Recording& recording, const ros_io::StereoProcessing& processing,
       const odometry::OdometryConfig& config, const std::optional<std::string>& disparity_bag,
-      const Eigen::Isometry3d& T_base_camera, const Eigen::Matrix3d& R_camera_imu)
+      const Eigen::Isometry3d& T_base_camera, const ImuMounting& imu)
       : recording_(recording),
         processing_(processing),
         config_(config),
         T_base_camera_(T_base_camera),
         uncertainty_(T_base_camera),
-        odometry_(odometry::makeOdometry(config_, processing.calibration(), R_camera_imu)) {
+        imu_problem_(imu.problem),
+        odometry_(config_, processing.calibration(), {T_base_camera.linear(), imu.R_base_imu}) {
     if (disparity_bag && config_.disparityUse() != odometry::DisparityUse::kNone)
       recorded_disparity_.emplace(*disparity_bag);
   }
@@ -93,7 +107,7 @@ class Run {
     }
     feedImu(std::max(pair.left_time_s, pair.right_time_s));
     const auto start = Clock::now();
-    const odometry::FrameResult result = odometry_->process(frame);
+    const odometry::FrameResult result = odometry_.process(frame);
     record.timing.frame_ms = millisecondsSince(start);
     for (const odometry::StageTime& stage : result.stage_times) {
       record.timing.stages_ms.emplace_back(stage.stage, stage.milliseconds);
@@ -110,6 +124,8 @@ class Run {
     return record;
   }
 
+  /// Why the IMU contradicts the images; empty while it is used, or was not used from the start.
+  const std::string& imuContradiction() const { return odometry_.imuProblem(); }
   /// What the frames told of their uncertainty.
   RelativeCovariance uncertainty() const { return uncertainty_; }
 
@@ -127,10 +143,11 @@ class Run {
   /// All samples up to the frame's last exposure and the first one after it, so that its end can be
   /// interpolated.
   void feedImu(double frame_time_s) {
+    if (!imu_problem_.empty()) return;
     const auto& samples = recording_.imu();
     while (next_imu_ < samples.size()) {
       const ImuSample& sample = samples[next_imu_++];
-      odometry_->addImu(sample);
+      odometry_.addImu(sample);
       if (sample.time_s >= frame_time_s) break;
     }
   }
@@ -140,7 +157,8 @@ class Run {
   odometry::OdometryConfig config_;
   Eigen::Isometry3d T_base_camera_;
   RelativeCovariance uncertainty_;
-  std::unique_ptr<odometry::Odometry> odometry_;
+  std::string imu_problem_;  ///< why it is not used
+  odometry::WatchedOdometry odometry_;
   std::size_t next_imu_ = 0;
   std::optional<RecordedDisparity> recorded_disparity_;
   cv::Mat previous_disparity_;
@@ -165,7 +183,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   const ros_io::StereoProcessing processing(recording.leftInfo(), recording.rightInfo(), disparity);
   const Eigen::Isometry3d T_base_camera =
       requireTransform(recording, options.bag, ros_io::frames::kBase, recording.leftInfo().header.frame_id);
-  const Eigen::Matrix3d R_camera_imu = imuToCamera(recording, options.bag, T_base_camera);
+  ImuMounting imu = imuMounting(recording);
 
   EvaluationRun run;
   run.unpaired_images = recording.unpairedImages();
@@ -180,19 +198,30 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
 
   for (int repetition = 0; repetition < options.repeat; ++repetition) {
-    Run pass(recording, processing, config, options.disparity_from, T_base_camera, R_camera_imu);
+    Run pass(recording, processing, config, options.disparity_from, T_base_camera, imu);
     std::vector<eval::FrameRecord> frames;
     recording.forEachPair([&](const ros_io::RawPair& pair) {
       frames.push_back(pass.handle(pair));
       run.timings.push_back(frames.back().timing);
       progress(run.timings.size(), recording.pairs() * static_cast<std::size_t>(options.repeat));
     });
+    if (!pass.imuContradiction().empty()) {
+      // Once more by vision alone, from the first frame on.
+      imu.problem = "the IMU contradicts the images: " + pass.imuContradiction();
+      run.timings.clear();
+      --repetition;
+      continue;
+    }
     if (repetition == 0) {
       run.input.frames = std::move(frames);
       run.input.relative_covariance = pass.uncertainty();
     } else if (!samePoses(run.input.frames, frames)) {
       throw std::logic_error("two runs on the same recording differ; this is a defect of the odometry");
     }
+  }
+  if (!imu.problem.empty()) {
+    run.input.imu_set_aside = imu.problem;
+    run.input.notes.push_back("the IMU is set aside, the path is that of vision alone: " + imu.problem);
   }
   return run;
 }

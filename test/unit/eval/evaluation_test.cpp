@@ -163,6 +163,7 @@ TEST(EvaluationSummary, fileHasFixedKeysAndRoundTripNumbers) {
             "  \"config\": \"a \\\"quoted\\\" name\",\n"
             "  \"input\": \"x.bag\",\n"
             "  \"frames_with_ground_truth\": 0,\n"
+            "  \"imu_set_aside\": \"\",\n"
             "  \"nees\": {\n"
             "    \"0.2\": {\n" +
                 no_nees +

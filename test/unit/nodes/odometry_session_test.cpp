@@ -139,6 +139,44 @@ TEST_F(OdometrySessionTest, WaitsForTheImusMountingBeforeItStartsButNotLater) {
   EXPECT_TRUE(output.base.T_odom_base.translation().isApprox(before));
 }
 
+TEST_F(OdometrySessionTest, NamesAnImuThatContradictsTheImagesAndGoesOnWithoutIt) {
+  setup_.imu_frame = ros_io::frames::kImu;
+  constexpr double kTurnRate_rad_s = 10.0 * M_PI / 180.0;
+  int announced = 0;
+  SessionOutput output;
+  for (int i = 0; i <= 30; ++i) {
+    auto work = frameAt(0.1 * i);
+    for (int k = -9; k <= 1; ++k) {
+      ImuSample sample;
+      sample.time_s = kStart_s + 0.1 * i + 0.01 * k;
+      sample.angular_velocity =
+          Eigen::Vector3d(0.0, 0.0, kTurnRate_rad_s);  // turns to the right: it should be negative
+      work.imu.push_back(sample);
+    }
+    output = process(work);
+    announced += static_cast<int>(output.announcements.size());
+  }
+  EXPECT_TRUE(contains(output.warnings["imu"], "the IMU contradicts the images and is set aside"));
+  EXPECT_TRUE(contains(output.warnings["imu"], "reversed")) << output.warnings["imu"];
+  EXPECT_EQ(announced, 1);
+  EXPECT_EQ(output.result.state, odometry::State::kTracking);
+  EXPECT_LT((output.base.T_odom_base.translation() - expectedPose(3.0).translation()).norm(),
+            2 * kTolerance_m);
+}
+
+TEST_F(OdometrySessionTest, NamesAnImuOfAnotherClock) {
+  setup_.imu_frame = ros_io::frames::kImu;
+  auto work = frameAt(0.0);
+  ImuSample sample;
+  sample.time_s = 0.01;  // its driver counts from power-on
+  sample.angular_velocity = Eigen::Vector3d::Zero();
+  work.imu.push_back(sample);
+  const SessionOutput output = process(work);
+  EXPECT_TRUE(output.processed);
+  EXPECT_TRUE(contains(output.warnings.at("imu_stamps"),
+                       "the stamps of the IMU are 1000.0 s before those of the images"));
+}
+
 TEST_F(OdometrySessionTest, RefusesCamerasThatDoNotFitTogether) {
   const auto refusal = [this](const std::function<void(sensor_msgs::CameraInfo&)>& spoil) {
     SensorSetup setup = setup_;

@@ -63,6 +63,16 @@ TEST(Inbox, WaitingEndsAndIsCounted) {
   EXPECT_EQ(inbox.framesWithoutImu(), 1u);
 }
 
+TEST(Inbox, NoFrameWaitsForAnImuOfAnotherClock) {
+  Inbox inbox(InboxParams{});
+  inbox.push(frameAt(1000.0));
+  inbox.addImu(imuAt(0.01));
+  const auto work = inbox.take(SteadyTime());
+  ASSERT_TRUE(work);
+  EXPECT_TRUE(work->imu_late);
+  EXPECT_EQ(inbox.framesWithoutImu(), 1u);
+}
+
 TEST(Inbox, WithoutAnImuNothingWaits) {
   InboxParams params;
   params.wait_for_imu = false;

@@ -4,6 +4,7 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -63,8 +64,9 @@ class EvaluateTest : public ::testing::Test {
   /// A copy of the fixture whose messages `change` may edit; the ones it returns false for are left out.
   template <class Message>
   static std::string copyWith(const std::string& name, const std::string& topic,
-                              const std::function<bool(Message&)>& change) {
-    rosbag::Bag source(file("room.bag"));
+                              const std::function<bool(Message&)>& change,
+                              const std::string& original = "room.bag") {
+    rosbag::Bag source(file(original));
     rosbag::Bag copy(file(name), rosbag::bagmode::Write);
     rosbag::View view(source);
     for (const rosbag::MessageInstance& instance : view) {
@@ -196,6 +198,74 @@ TEST_F(EvaluateTest, TakesARectifiedPairWithoutModelAsItIs) {
     EXPECT_EQ(result.status, 0) << result.output;
   }
   EXPECT_EQ(contentOf(folder / "blank/trajectory.tum"), contentOf(folder / "room/trajectory.tum"));
+}
+
+/// A drive that turns by 28 degrees, and an IMU with a mistake: the path is that of vision alone, and the
+/// mistake is named.
+class EvaluateImuTest : public EvaluateTest {
+ protected:
+  static void SetUpTestSuite() {
+    EvaluateTest::SetUpTestSuite();
+    test::FixtureBag fixture;
+    fixture.frames = 30;
+    test::writeFixtureBag(file("turn.bag"), fixture);
+    fixture.with_imu = false;
+    test::writeFixtureBag(file("vision.bag"), fixture);
+  }
+
+  static void expectSetAside(const std::string& name, const std::string& part,
+                             const std::function<void(sensor_msgs::Imu&)>& spoil) {
+    const auto bag = copyWith<sensor_msgs::Imu>(
+        name + ".bag", ros_io::topics::kImu,
+        [&spoil](sensor_msgs::Imu& imu) {
+          spoil(imu);
+          return true;
+        },
+        "turn.bag");
+    const auto result = evaluate(bag + " --output " + file(name), "vo.yaml");
+    EXPECT_EQ(result.status, 0) << result.output;
+    EXPECT_NE(result.output.find("note: the IMU is set aside, the path is that of vision alone"),
+              std::string::npos)
+        << result.output;
+    EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+    const auto summary = nlohmann::json::parse(contentOf(folder / name / "summary.json"));
+    EXPECT_NE(summary["imu_set_aside"].get<std::string>().find(part), std::string::npos) << summary;
+    ASSERT_EQ(evaluate(file("vision.bag") + " --output " + file("vision"), "vo.yaml").status, 0);
+    EXPECT_EQ(contentOf(folder / name / "trajectory.tum"), contentOf(folder / "vision/trajectory.tum"));
+  }
+};
+
+TEST_F(EvaluateImuTest, AGoodOneIsUsed) {
+  const auto result = evaluate(file("turn.bag") + " --output " + file("turn"), "vo.yaml");
+  EXPECT_EQ(result.status, 0) << result.output;
+  EXPECT_EQ(result.output.find("set aside"), std::string::npos) << result.output;
+  EXPECT_EQ(nlohmann::json::parse(contentOf(folder / "turn/summary.json"))["imu_set_aside"], "");
+}
+
+TEST_F(EvaluateImuTest, OneWhoseMountingNothingTellsIsSetAside) {
+  expectSetAside("no_frame", "have an empty frame_id",
+                 [](sensor_msgs::Imu& imu) { imu.header.frame_id.clear(); });
+  expectSetAside("other_frame", "no transform from base_link to the IMU's frame 'gyro'",
+                 [](sensor_msgs::Imu& imu) { imu.header.frame_id = "gyro"; });
+}
+
+TEST_F(EvaluateImuTest, OneWhoseStampsNeverCoverTheImagesIsSetAside) {
+  expectSetAside("no_stamp", "the stamps of the IMU are 0",
+                 [](sensor_msgs::Imu& imu) { imu.header.stamp = ros::Time(); });
+  expectSetAside("an_hour_late", "begin 3597.",
+                 [](sensor_msgs::Imu& imu) { imu.header.stamp += ros::Duration(3600.0); });
+}
+
+TEST_F(EvaluateImuTest, OneThatContradictsTheImagesIsSetAside) {
+  expectSetAside("degrees", "rates are in deg/s", [](sensor_msgs::Imu& imu) {
+    imu.orientation_covariance[0] = -1.0;
+    for (double* rate : {&imu.angular_velocity.x, &imu.angular_velocity.y, &imu.angular_velocity.z})
+      *rate *= 57.29578;
+  });
+  expectSetAside("dead", "stay the same while it turns", [](sensor_msgs::Imu& imu) {
+    imu.orientation = geometry_msgs::Quaternion();
+    imu.orientation.w = 1.0;
+  });
 }
 
 TEST_F(EvaluateTest, RefusesBadArguments) {

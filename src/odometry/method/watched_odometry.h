@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "odometry/method/imu_contradiction.h"
+#include "stereo_nav/odometry/method/odometry_config.h"
+
+namespace stereo_nav::odometry {
+
+/// An odometry that does not believe an IMU which contradicts the images. As long as the two agree, its
+/// results are those of the odometry alone, and so is its cost. When frames are lost or the turns disagree,
+/// an odometry without IMU runs beside it for some seconds; if what this one sees contradicts the IMU, the
+/// IMU is set aside and the odometry by vision alone takes over from where it began.
+class WatchedOdometry : public Odometry {
+ public:
+  WatchedOdometry(const OdometryConfig& config, const vision::StereoCalibration& calibration,
+                  const SensorAxes& axes);
+
+  void addImu(const ImuSample& sample) override;
+  FrameResult process(const StereoFrame& frame) override;
+  /// The IMU is believed again.
+  void reset() override;
+
+  /// Why the IMU is set aside; empty while it is used or there is none.
+  const std::string& imuProblem() const { return imu_problem_; }
+
+ private:
+  /// The odometry without IMU that runs beside the other one.
+  struct Witness {
+    std::unique_ptr<Odometry> odometry;
+    ImuContradiction contradiction;
+    Eigen::Isometry3d T_start_first;  ///< pose of its first frame
+    double since_s;
+  };
+
+  bool isSuspicious(const FrameResult& result) const;
+  /// It begins with the frame before, whose pose is still good.
+  void startWitness();
+  /// Lets the witness see the frame; returns its result where it takes over.
+  std::optional<FrameResult> askWitness(const StereoFrame& frame);
+
+  OdometryConfig config_;
+  vision::StereoCalibration calibration_;
+  SensorAxes axes_;
+  std::unique_ptr<Odometry> odometry_;
+  RotationHistory imu_;
+  ImuContradiction contradiction_;  ///< of odometry_, which uses the IMU
+  StereoFrame previous_;            ///< the frame before, with images of its own
+  FrameResult previous_result_;
+  std::optional<Witness> witness_;
+  bool witness_took_over_ = false;
+  std::string imu_problem_;
+};
+
+}  // namespace stereo_nav::odometry
