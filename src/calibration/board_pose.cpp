@@ -79,12 +79,24 @@ double lensError_px(const CameraModel& camera, const Checkerboard& board,
   std::vector<cv::Point3d> corners;
   for (const Eigen::Vector3d& corner : board.corners()) corners.emplace_back(corner.x(), corner.y(), 0.0);
   const std::vector<cv::Point2d> seen(raw_px.begin(), raw_px.end());
+  // OpenCV knows no equidistant lens here: the pose is then found from rays, scaled to pixels.
+  std::vector<cv::Point2d> straight = seen;
+  if (camera.equidistant) {
+    straight = camera.rays(seen);
+    for (cv::Point2d& ray : straight)
+      ray = {camera.K(0, 0) * ray.x + camera.K(0, 2), camera.K(1, 1) * ray.y + camera.K(1, 2)};
+  }
   cv::Vec3d rotation, translation;
-  if (!cv::solvePnP(corners, seen, camera.K, camera.D, rotation, translation)) {
+  if (!cv::solvePnP(corners, straight, camera.K, camera.equidistant ? cv::Mat() : camera.D, rotation,
+                    translation)) {
     return std::numeric_limits<double>::infinity();
   }
   std::vector<cv::Point2d> predicted;
-  cv::projectPoints(corners, rotation, translation, camera.K, camera.D, predicted);
+  if (camera.equidistant) {
+    cv::fisheye::projectPoints(corners, predicted, rotation, translation, camera.K, camera.D);
+  } else {
+    cv::projectPoints(corners, rotation, translation, camera.K, camera.D, predicted);
+  }
   return cv::norm(predicted, seen) / std::sqrt(static_cast<double>(seen.size()));
 }
 

@@ -10,33 +10,45 @@ namespace {
 /// OpenCV's default of five iterations leaves 0.01 px in the corners of a wide lens.
 const cv::TermCriteria kExactly(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 50, 1e-9);
 
-double angleBetween(const CameraModel& camera, const cv::Point2f& first, const cv::Point2f& second) {
-  std::vector<cv::Point2f> rays;
-  cv::undistortPoints(std::vector<cv::Point2f>{first, second}, rays, camera.K, camera.D, cv::noArray(),
-                      cv::noArray(), kExactly);
+std::vector<cv::Point2d> undistorted(const CameraModel& camera, const std::vector<cv::Point2d>& raw_px,
+                                     const cv::Matx33d& R, const cv::Matx34d& P) {
+  std::vector<cv::Point2d> result;
+  if (raw_px.empty()) return result;
+  if (camera.equidistant) {
+    cv::fisheye::undistortPoints(raw_px, result, camera.K, camera.D, R, P);
+  } else {
+    cv::undistortPoints(raw_px, result, camera.K, camera.D, R, P, kExactly);
+  }
+  return result;
+}
+
+double angleBetween(const CameraModel& camera, const cv::Point2d& first, const cv::Point2d& second) {
+  const auto rays = camera.rays({first, second});
   const Eigen::Vector3d a(rays[0].x, rays[0].y, 1.0), b(rays[1].x, rays[1].y, 1.0);
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 }  // namespace
 
+std::vector<cv::Point2d> CameraModel::rays(const std::vector<cv::Point2d>& raw_px) const {
+  return undistorted(*this, raw_px, cv::Matx33d::eye(), cv::Matx34d::eye());
+}
+
 std::vector<Eigen::Vector2d> CameraModel::rectify(const std::vector<cv::Point2f>& raw_px) const {
-  std::vector<cv::Point2d> raw(raw_px.begin(), raw_px.end()), rectified;
-  if (raw.empty()) return {};
-  cv::undistortPoints(raw, rectified, K, D, R, P, kExactly);
   std::vector<Eigen::Vector2d> result;
-  for (const cv::Point2d& pixel : rectified) result.emplace_back(pixel.x, pixel.y);
+  for (const cv::Point2d& pixel : undistorted(*this, {raw_px.begin(), raw_px.end()}, R, P))
+    result.emplace_back(pixel.x, pixel.y);
   return result;
 }
 
 double CameraModel::horizontalView_rad() const {
-  const auto middle = static_cast<float>(0.5 * (size.height - 1));
-  return angleBetween(*this, {-0.5f, middle}, {static_cast<float>(size.width) - 0.5f, middle});
+  const double middle = 0.5 * (size.height - 1);
+  return angleBetween(*this, {-0.5, middle}, {size.width - 0.5, middle});
 }
 
 double CameraModel::verticalView_rad() const {
-  const auto middle = static_cast<float>(0.5 * (size.width - 1));
-  return angleBetween(*this, {middle, -0.5f}, {middle, static_cast<float>(size.height) - 0.5f});
+  const double middle = 0.5 * (size.width - 1);
+  return angleBetween(*this, {middle, -0.5}, {middle, size.height - 0.5});
 }
 
 double rectifiedView_rad(double focal_length_px, double centre_px, int size_px) {

@@ -19,8 +19,10 @@ namespace enc = sensor_msgs::image_encodings;
 
 bool isSupported(const std::string& encoding) {
   static const std::vector<std::string> supported = {
-      enc::MONO8,       enc::MONO16,      enc::RGB8,        enc::BGR8,        enc::RGBA8, enc::BGRA8,
-      enc::BAYER_RGGB8, enc::BAYER_BGGR8, enc::BAYER_GBRG8, enc::BAYER_GRBG8, enc::YUV422};
+      enc::MONO8,        enc::MONO16,      enc::RGB8,         enc::BGR8,         enc::RGBA8,
+      enc::BGRA8,        enc::RGB16,       enc::BGR16,        enc::BAYER_RGGB8,  enc::BAYER_BGGR8,
+      enc::BAYER_GBRG8,  enc::BAYER_GRBG8, enc::BAYER_RGGB16, enc::BAYER_BGGR16, enc::BAYER_GBRG16,
+      enc::BAYER_GRBG16, enc::YUV422};
   return std::find(supported.begin(), supported.end(), encoding) != supported.end();
 }
 
@@ -35,8 +37,8 @@ cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image) {
   if (!isSupported(image->encoding)) {
     throw InputError(
         "image encoding '" + image->encoding +
-        "' is not supported; record mono8, mono16, rgb8, bgr8, rgba8, bgra8, an 8-bit Bayer pattern or "
-        "yuv422");
+        "' is not supported; record mono8, mono16, rgb8, bgr8, rgba8, bgra8, rgb16, bgr16, a Bayer "
+        "pattern of 8 or 16 bits or yuv422");
   }
   const auto pixel_bytes = static_cast<std::size_t>(enc::numChannels(image->encoding)) *
                            static_cast<std::size_t>(enc::bitDepth(image->encoding)) / 8;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "ros/recorded_image.h"
 #include "stereo_nav/ros/conversions.h"
 
 namespace stereo_nav::ros_io {
@@ -13,11 +14,15 @@ namespace {
 
 constexpr unsigned kSamples = 10;  ///< images of each camera
 
+bool isSixteenBits(const std::string& encoding) {
+  namespace enc = sensor_msgs::image_encodings;
+  return encoding == enc::MONO16 || (enc::isBayer(encoding) && enc::bitDepth(encoding) == 16);
+}
+
 /// False for images of another encoding, which need no more looking.
 bool addImage(const rosbag::MessageInstance& message, vision::BitDepthFinder& finder) {
-  namespace enc = sensor_msgs::image_encodings;
-  const auto image = message.instantiate<sensor_msgs::Image>();
-  if (!image || image->encoding != enc::MONO16) return false;
+  const auto image = recordedImage(message);
+  if (!image || !isSixteenBits(image->encoding)) return false;
   try {
     finder.add(cv_bridge::toCvShare(image)->image);
   } catch (const cv_bridge::Exception&) {
@@ -42,12 +47,11 @@ vision::BitDepth recordedDepth(const rosbag::Bag& bag, const std::string& left, 
 }
 
 cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image, const vision::BitDepth& depth) {
-  namespace enc = sensor_msgs::image_encodings;
   cv::Mat plain = toMono8(image);  // with all checks
-  if (image->encoding != enc::MONO16 || depth.isPlain()) return plain;
-  cv::Mat grey;
-  vision::toFullRange(cv_bridge::toCvShare(image)->image, depth).convertTo(grey, CV_8U, 255.0 / 65535.0);
-  return grey;
+  if (!isSixteenBits(image->encoding) || depth.isPlain()) return plain;
+  auto scaled = boost::make_shared<cv_bridge::CvImage>(
+      image->header, image->encoding, vision::toFullRange(cv_bridge::toCvShare(image)->image, depth));
+  return toMono8(scaled->toImageMsg());
 }
 
 }  // namespace stereo_nav::ros_io

@@ -6,7 +6,6 @@
 #include <nav_msgs/Odometry.h>
 #include <rosbag/view.h>
 #include <tf2/exceptions.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +13,13 @@
 #include <set>
 #include <sstream>
 
-#include "ros/image_stamp.h"
 #include "ros/judged_infos.h"
 #include "ros/recorded_depth.h"
+#include "ros/recorded_image.h"
+#include "ros/recorded_transforms.h"
 #include "ros/rig_topics.h"
 #include "ros/setup_checks.h"
+#include "ros/usable_stamps.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/topics.h"
 
@@ -59,12 +60,17 @@ Recording::Recording(const std::string& path, const RecordingOptions& options) :
     mono16_bits_ = depth.bits;
     mono16_swapped_ = depth.swapped;
     readImu();
-    readTransforms();
+    readStaticTransforms(bag_, transforms_, notes_);
     pairImages(options);
   } catch (const rosbag::BagUnindexedException&) {
-    throw InputError(path + ": the recording was cut off (no index); run `rosbag reindex` on it");
+    throw InputError(path + ": the recording was cut off (it has no index); `rosbag reindex " + path +
+                     "` repairs it and keeps the original as *.orig.bag");
   } catch (const rosbag::BagException& error) {
-    throw InputError(path + ": cannot be read as a bag: " + error.what());
+    throw InputError(
+        path + ": cannot be read as a bag (" + error.what() +
+        "); where the file was cut off, e.g. while it was copied, copy it again or repair it: `rosbag "
+        "reindex " +
+        path + "`");
   } catch (const ros::Exception& error) {
     throw InputError(path + ": damaged message: " + error.what());
   }
@@ -95,6 +101,12 @@ std::string Recording::require(const std::string& relative_name) const {
                    ". Record both cameras' image_raw and camera_info");
 }
 
+std::string Recording::requireImages(const std::string& relative_name) const {
+  if (const auto plain = find(relative_name)) return *plain;
+  const auto compressed = find(relative_name + topics::kCompressed);
+  return compressed ? *compressed : require(relative_name);
+}
+
 void Recording::findTopics(const RecordingOptions& options) {
   std::set<std::string> names;
   rosbag::View view(bag_);
@@ -107,8 +119,8 @@ void Recording::findTopics(const RecordingOptions& options) {
     throw InputError(path_ + ": " + error.what());
   }
   if (!rig_prefix_.empty()) rig_prefix_ += "/";
-  topics_.left = require(topics::kLeftImage);
-  topics_.right = require(topics::kRightImage);
+  topics_.left = requireImages(topics::kLeftImage);
+  topics_.right = requireImages(topics::kRightImage);
   topics_.left_info = require(topics::kLeftInfo);
   topics_.right_info = require(topics::kRightInfo);
   topics_.sync = find(topics::kSync);
@@ -142,12 +154,12 @@ void Recording::readMessages() {
   right_info_ = firstInfo(topics_.right_info);
   rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
   for (const rosbag::MessageInstance& message : view) {
-    const auto image = message.instantiate<ImageStamp>();
-    if (!image) {
+    const auto stamp = recordedImageStamp(message);
+    if (!stamp) {
       throw InputError(path_ + ": " + message.getTopic() + " is " + message.getDataType() +
-                       ", expected sensor_msgs/Image; decompress the recording first");
+                       ", expected sensor_msgs/Image or sensor_msgs/CompressedImage");
     }
-    (message.getTopic() == topics_.left ? left_stamps_ : right_stamps_).push_back(image->stamp);
+    (message.getTopic() == topics_.left ? left_stamps_ : right_stamps_).push_back(*stamp);
   }
   if (left_stamps_.empty() || right_stamps_.empty()) {
     throw InputError(path_ + ": " + std::to_string(left_stamps_.size()) + " left and " +
@@ -179,20 +191,6 @@ void Recording::readImu() {
                    [](const ImuSample& a, const ImuSample& b) { return a.time_s < b.time_s; });
 }
 
-void Recording::readTransforms() {
-  rosbag::View view(bag_, rosbag::TypeQuery("tf2_msgs/TFMessage"));
-  for (const rosbag::MessageInstance& message : view) {
-    if (!endsWith(message.getTopic(), topics::kTfStatic)) continue;
-    const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
-    if (!transforms) continue;
-    for (geometry_msgs::TransformStamped transform : transforms->transforms) {
-      transform.header.frame_id = withoutSlash(transform.header.frame_id);
-      transform.child_frame_id = withoutSlash(transform.child_frame_id);
-      transforms_.setTransform(transform, path_, true);
-    }
-  }
-}
-
 void Recording::pairImages(const RecordingOptions& options) {
   std::vector<StereoSync> sync;
   if (topics_.sync) {
@@ -210,10 +208,11 @@ void Recording::pairImages(const RecordingOptions& options) {
       sync.push_back(*pair);
     }
   }
-  std::sort(left_stamps_.begin(), left_stamps_.end());
-  std::sort(right_stamps_.begin(), right_stamps_.end());
+  const std::size_t images = left_stamps_.size() + right_stamps_.size();
+  keepUsableStamps(path_ + ": " + topics_.left, left_stamps_, notes_);
+  keepUsableStamps(path_ + ": " + topics_.right, right_stamps_, notes_);
   pairs_ = pairStamps(left_stamps_, right_stamps_, sync);
-  unpaired_images_ = left_stamps_.size() + right_stamps_.size() - 2 * pairs_.size();
+  unpaired_images_ = images - 2 * pairs_.size();
   if (pairs_.empty()) {
     std::ostringstream message;
     message.precision(15);
@@ -292,12 +291,12 @@ void Recording::forEachPair(const std::function<void(const RawPair&)>& handle) c
   const vision::BitDepth depth{mono16_bits_, mono16_swapped_};
   rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
   for (const rosbag::MessageInstance& message : view) {
-    const auto image = message.instantiate<sensor_msgs::Image>();
     const bool is_left = message.getTopic() == topics_.left;
-    const auto& pair_of = is_left ? pair_of_left : pair_of_right;
-    const auto pair = pair_of.find(image->header.stamp);
+    auto& pair_of = is_left ? pair_of_left : pair_of_right;
+    const auto pair = pair_of.find(recordedImageStamp(message).value());
     if (pair == pair_of.end()) continue;
-    (is_left ? waiting_left : waiting_right)[pair->second] = image;
+    (is_left ? waiting_left : waiting_right)[pair->second] = recordedImage(message);
+    pair_of.erase(pair);  // a second image with this stamp is left out
     while (waiting_left.count(next) != 0 && waiting_right.count(next) != 0) {
       handle({pairs_[next].left_time_s, pairs_[next].right_time_s, pairs_[next].rolling_shutter_s,
               toMono8(waiting_left[next], depth), toMono8(waiting_right[next], depth)});

@@ -19,6 +19,14 @@ std::string withoutSlashes(const std::string& text) {
                                     : text.substr(first, text.find_last_not_of('/') + 1 - first);
 }
 
+/// Compressed images make a rig as plain ones do.
+std::string plainTopic(const std::string& topic) {
+  const std::string end = topics::kCompressed;
+  const bool compressed =
+      topic.size() > end.size() && topic.compare(topic.size() - end.size(), end.size(), end) == 0;
+  return compressed ? topic.substr(0, topic.size() - end.size()) : topic;
+}
+
 /// "/a (lacks camera/left/camera_info), /b"
 std::string describe(const std::vector<std::string>& rigs, const std::vector<std::string>& all_topics) {
   std::set<std::string> names;
@@ -28,7 +36,8 @@ std::string describe(const std::vector<std::string>& rigs, const std::vector<std
     std::string lacking;
     for (const char* needed : kNeeded) {
       const std::string name = (rig.empty() ? "" : rig + "/") + needed;
-      if (names.count(name) == 0) lacking += (lacking.empty() ? " (lacks " : ", ") + std::string(needed);
+      if (names.count(name) == 0 && names.count(name + topics::kCompressed) == 0)
+        lacking += (lacking.empty() ? " (lacks " : ", ") + std::string(needed);
     }
     text += (text.empty() ? "/" : ", /") + rig + (lacking.empty() ? "" : lacking + ")");
   }
@@ -40,7 +49,7 @@ std::string describe(const std::vector<std::string>& rigs, const std::vector<std
 std::vector<std::string> rigNamespaces(const std::vector<std::string>& topics) {
   std::set<std::string> rigs;
   for (const std::string& topic : topics) {
-    const std::string name = "/" + withoutSlashes(topic);
+    const std::string name = "/" + withoutSlashes(plainTopic(topic));
     for (const char* needed : kNeeded) {
       const std::string end = std::string("/") + needed;
       if (name.size() < end.size() || name.compare(name.size() - end.size(), end.size(), end) != 0) continue;

@@ -24,11 +24,12 @@ const nav_msgs::Odometry* truthOf(const nav_msgs::Odometry& estimate, const Grap
 }
 
 /// The last pose that `evaluate` finds for the same recording, without a graph.
-Eigen::Isometry3d evaluated(const std::string& bag, const std::string& config) {
+Eigen::Isometry3d evaluated(const std::string& bag, const std::string& config, const std::string& rig) {
   const std::string folder = testing::TempDir() + "replay_test_" + std::to_string(getpid());
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "evaluate";
-  const std::string command =
-      program.string() + " '" + bag + "' --config " + config + " --output " + folder + " > /dev/null";
+  const std::string command = program.string() + " '" + bag + "'" +
+                              (rig == "/" ? "" : " --namespace " + rig) + " --config " + config +
+                              " --output " + folder + " > /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   const Trajectory trajectory = readTum(folder + "/trajectory.tum");
   std::filesystem::remove_all(folder);
@@ -81,7 +82,8 @@ TEST_F(Replay, EveryFrameBecomesOdometryNearTheGroundTruth) {
   }
 
   const Eigen::Isometry3d difference =
-      evaluated(parameters_.param<std::string>("bag", ""), parameters_.param<std::string>("config", ""))
+      evaluated(parameters_.param<std::string>("bag", ""), parameters_.param<std::string>("config", ""),
+                parameters_.param<std::string>("namespace", "/"))
           .inverse() *
       poseOf(last);
   constexpr double kHundredthDegree = 1.7e-4;

@@ -4,9 +4,12 @@
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
+
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/base_pose.h"
 #include "core/optical_axes.h"
@@ -38,11 +41,26 @@ Eigen::Isometry3d basePoseAt(double time_s) {
   return basePose(baseToCamera(), roomDrive(time_s));
 }
 
+std::string inRig(const FixtureBag& fixture, const char* topic) {
+  return fixture.rig.empty() ? topic : fixture.rig + "/" + topic;
+}
+
 sensor_msgs::Image imageOf(const cv::Mat& grey, const ros::Time& stamp) {
   std_msgs::Header header;
   header.stamp = stamp;
   header.frame_id = frames::kLeftOptical;
   return *cv_bridge::CvImage(header, "mono8", grey).toImageMsg();
+}
+
+void writeImage(rosbag::Bag& bag, const FixtureBag& fixture, const std::string& topic, const cv::Mat& grey,
+                const ros::Time& stamp) {
+  const sensor_msgs::Image image = imageOf(grey, stamp);
+  if (!fixture.compressed_bayer) return bag.write(topic, stamp, image);
+  sensor_msgs::CompressedImage compressed;
+  compressed.header = image.header;
+  compressed.format = "bayer_rggb8; png compressed ";  // a grey scene looks the same to all colours
+  cv::imencode(".png", grey, compressed.data);
+  bag.write(topic + topics::kCompressed, stamp, compressed);
 }
 
 void writeTransforms(rosbag::Bag& bag) {
@@ -74,29 +92,33 @@ void writeFrame(rosbag::Bag& bag, const FixtureBag& fixture, int index) {
     images.right = TexturedRoom().render(T_room_right, c.fx, c.fy, c.right_cx, c.cy, {c.width, c.height});
     Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(right_info.R.data()) = R;
   }
-  bag.write(topics::kLeftImage, stampOf(left_s), imageOf(images.left, stampOf(left_s)));
-  bag.write(topics::kLeftInfo, stampOf(left_s), left_info);
-  bag.write(topics::kRightImage, stampOf(right_s), imageOf(images.right, stampOf(right_s)));
-  bag.write(topics::kRightInfo, stampOf(right_s), right_info);
+  writeImage(bag, fixture, inRig(fixture, topics::kLeftImage), images.left, stampOf(left_s));
+  bag.write(inRig(fixture, topics::kLeftInfo), stampOf(left_s), left_info);
+  writeImage(bag, fixture, inRig(fixture, topics::kRightImage), images.right, stampOf(right_s));
+  bag.write(inRig(fixture, topics::kRightInfo), stampOf(right_s), right_info);
+  if (!fixture.rig.empty()) {
+    const std::string other = std::string("/a/") + topics::kLeftImage;
+    bag.write(other, stampOf(left_s), imageOf(images.right, stampOf(left_s)));
+  }
   StereoSync sync;
   sync.header = left_info.header;
   sync.left_stamp = stampOf(left_s);
   sync.right_stamp = stampOf(right_s);
   sync.skew_s = fixture.right_lag_s;
   sync.left_sequence = sync.right_sequence = static_cast<unsigned>(index);
-  bag.write(topics::kSync, stampOf(right_s), sync);
+  bag.write(inRig(fixture, topics::kSync), stampOf(right_s), sync);
 }
 
-void writeGroundTruth(rosbag::Bag& bag, double time_s) {
+void writeGroundTruth(rosbag::Bag& bag, const FixtureBag& fixture, double time_s) {
   nav_msgs::Odometry odometry;
   odometry.header.stamp = stampOf(time_s);
   odometry.header.frame_id = frames::kOdom;
   odometry.child_frame_id = frames::kBase;
   odometry.pose.pose = tf2::toMsg(basePoseAt(time_s));
-  bag.write(topics::kGroundTruth, stampOf(time_s), odometry);
+  bag.write(inRig(fixture, topics::kGroundTruth), stampOf(time_s), odometry);
 }
 
-void writeImu(rosbag::Bag& bag, double time_s) {
+void writeImu(rosbag::Bag& bag, const FixtureBag& fixture, double time_s) {
   constexpr double kStep_s = 1e-4;
   sensor_msgs::Imu imu;
   imu.header.stamp = stampOf(time_s);
@@ -108,7 +130,7 @@ void writeImu(rosbag::Bag& bag, double time_s) {
   const Eigen::Vector3d rate = turn.axis() * turn.angle() / kStep_s;
   tf2::toMsg(rate, imu.angular_velocity);
   imu.linear_acceleration_covariance[0] = -1.0;
-  bag.write(topics::kImu, stampOf(time_s), imu);
+  bag.write(inRig(fixture, topics::kImu), stampOf(time_s), imu);
 }
 
 }  // namespace
@@ -138,8 +160,8 @@ void writeFixtureBag(const std::string& path, const FixtureBag& fixture) {
   const double end_s = fixture.period_s * fixture.frames + fixture.right_lag_s;
   constexpr double kImuPeriod_s = 0.01;
   for (double time_s = 0.0; time_s <= end_s + kImuPeriod_s; time_s += kImuPeriod_s) {
-    if (fixture.with_imu) writeImu(bag, time_s);
-    if (fixture.with_ground_truth) writeGroundTruth(bag, time_s);
+    if (fixture.with_imu) writeImu(bag, fixture, time_s);
+    if (fixture.with_ground_truth) writeGroundTruth(bag, fixture, time_s);
   }
   bag.close();
 }

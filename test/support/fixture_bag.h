@@ -18,6 +18,8 @@ struct FixtureBag {
   bool with_imu = true;
   bool with_ground_truth = true;
   bool with_transforms = true;
+  bool compressed_bayer = false;  ///< mosaics as PNG on image_raw/compressed instead of grey images
+  std::string rig;                ///< namespace of the rig ("/b"); the bag then holds images of a rig /a, too
 };
 
 /// Writes roomDrive() through the textured room as a bag of a stereo rig (topics.h), each image with its own

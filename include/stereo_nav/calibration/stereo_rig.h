@@ -13,9 +13,13 @@ namespace stereo_nav::calibration {
 struct CameraModel {
   cv::Size size;  ///< px
   cv::Matx33d K;  ///< raw pixels of rays in the raw optical frame
-  cv::Mat D;      ///< 1xN CV_64FC1, N of 4, 5, 8, ...: OpenCV's order k1 k2 p1 p2 k3 ...
-  cv::Matx33d R;  ///< raw optical -> rectified optical frame
-  cv::Matx34d P;  ///< rectified pixels of points in the rectified left optical frame
+  cv::Mat D;  ///< 1xN CV_64FC1, N of 4, 5, 8, ...: OpenCV's order k1 k2 p1 p2 k3 ...; equidistant: k1 to k4
+  cv::Matx33d R;             ///< raw optical -> rectified optical frame
+  cv::Matx34d P;             ///< rectified pixels of points in the rectified left optical frame
+  bool equidistant = false;  ///< D is of OpenCV's fisheye model
+
+  /// The rays of raw pixels, where they cross z = 1 of the raw optical frame.
+  std::vector<cv::Point2d> rays(const std::vector<cv::Point2d>& raw_px) const;
 
   /// The positions of raw pixels in the rectified image.
   std::vector<Eigen::Vector2d> rectify(const std::vector<cv::Point2f>& raw_px) const;

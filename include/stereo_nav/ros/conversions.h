@@ -28,9 +28,9 @@ vision::StereoCalibration toCalibration(const sensor_msgs::CameraInfo& left,
 cv::Mat rawRows(const sensor_msgs::CameraInfo& info);
 
 /// Converts to a CV_8UC1 image. Accepts mono8, mono16 (full range scaled to 8 bit), rgb8, bgr8, rgba8, bgra8,
-/// the 8-bit Bayer patterns and yuv422. Throws InputError for any other encoding, which the message names,
-/// and for data shorter than width, height and step imply. The data of mono8 are shared with the message, not
-/// copied.
+/// rgb16, bgr16, the Bayer patterns of 8 and 16 bits and yuv422. Throws InputError for any other encoding,
+/// which the message names, and for data shorter than width, height and step imply. The data of mono8 are
+/// shared with the message, not copied.
 cv::Mat toMono8(const sensor_msgs::ImageConstPtr& image);
 
 /// Disparity in px, CV_32FC1. Pixels that the map marks as unknown are set to -1; the map's own marker is one

@@ -36,7 +36,8 @@ struct RawPair {
   cv::Mat right;             ///< CV_8UC1
 };
 
-/// A bag with the topics of a stereo rig: `camera/{left,right}/{image_raw,camera_info}` and, where recorded,
+/// A bag with the topics of a stereo rig: `camera/{left,right}/{image_raw,camera_info}` (or
+/// `image_raw/compressed`, where there is no `image_raw`) and, where recorded,
 /// `camera/sync`, `imu/data` or `imu_quat`, `tf_static` and ground truth. It is read without a ROS master.
 /// Opening reads everything but the images, which are streamed. A prefix common to all topics (a namespace)
 /// is detected. Throws InputError for an unreadable or damaged file, for missing topics (the message lists
@@ -92,10 +93,10 @@ class Recording {
   void findTopics(const RecordingOptions& options);
   void readMessages();
   void readImu();
-  void readTransforms();
   void pairImages(const RecordingOptions& options);
   std::optional<std::string> find(const std::string& relative_name) const;
   std::string require(const std::string& relative_name) const;
+  std::string requireImages(const std::string& relative_name) const;
   std::string topicList() const;
   sensor_msgs::CameraInfo firstInfo(const std::string& topic);
 

@@ -4,8 +4,10 @@
 /// whole rig.
 namespace stereo_nav::ros_io::topics {
 
-constexpr const char* kLeftImage = "camera/left/image_raw";     ///< sensor_msgs/Image
-constexpr const char* kRightImage = "camera/right/image_raw";   ///< sensor_msgs/Image
+constexpr const char* kLeftImage = "camera/left/image_raw";    ///< sensor_msgs/Image
+constexpr const char* kRightImage = "camera/right/image_raw";  ///< sensor_msgs/Image
+/// Ending of the topics of compressed images: sensor_msgs/CompressedImage.
+constexpr const char* kCompressed = "/compressed";
 constexpr const char* kLeftInfo = "camera/left/camera_info";    ///< sensor_msgs/CameraInfo
 constexpr const char* kRightInfo = "camera/right/camera_info";  ///< sensor_msgs/CameraInfo
 /// sensor_msgs/CameraInfo for the image nodelets: checked, of the images as they are delivered.
@@ -18,6 +20,7 @@ constexpr const char* kImuQuaternion = "imu_quat";
 constexpr const char* kGroundTruth = "ground_truth/odom";  ///< nav_msgs/Odometry
 /// In simulated recordings: the moments at which the robot passes the way-points of its path.
 constexpr const char* kWaypoint = "ground_truth/waypoint";
+constexpr const char* kTf = "tf";               ///< tf2_msgs/TFMessage
 constexpr const char* kTfStatic = "tf_static";  ///< tf2_msgs/TFMessage
 
 }  // namespace stereo_nav::ros_io::topics

@@ -16,8 +16,7 @@ struct CameraInfos {
 /// left.yaml and right.yaml of a folder, as camera_calibration saves them. Throws InputError.
 CameraInfos readCalibrationFolder(const std::string& folder);
 
-/// Throws InputError for infos that are no stereo calibration, or with another lens model than
-/// plumb_bob or rational_polynomial.
+/// Throws InputError for infos that judgeInfos() refuses.
 calibration::StereoRig toStereoRig(const CameraInfos& infos);
 
 }  // namespace stereo_nav::tools

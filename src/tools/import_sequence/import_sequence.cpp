@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <set>
 
 #include "core/atomic_file.h"
 #include "ros/judged_infos.h"
@@ -24,19 +25,21 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr const char* kUsage =
-    "usage: import_sequence --format euroc|kitti|images DIR --output BAG [options]\n"
+    "usage: import_sequence --format euroc|kitti|kitti_raw|images DIR --output BAG [options]\n"
     "Turns a public stereo recording into a bag with the topics of a stereo rig.\n\n"
     "  euroc   DIR/cam0, cam1 (data.csv, data/, sensor.yaml), imu0, state_groundtruth_estimate0;\n"
     "          raw images, rectified downstream by the camera_infos written\n"
     "  kitti   DIR/image_0, image_1, calib.txt, times.txt, poses.txt (KITTI odometry); time 0 becomes\n"
     "          1000 s\n"
+    "  kitti_raw  DIR = a drive, YYYY_MM_DD/YYYY_MM_DD_drive_NNNN_sync (rectified) or _extract (raw), with\n"
+    "          image_00, image_01 (else image_02, image_03) and oxts; calib_*.txt beside the drive\n"
     "  images  DIR/left, right with images, or two videos *L.mp4, *R.mp4 (*left, *right), rectified;\n"
     "          calib.txt with the lines fx, fy, cx, cy (px), baseline (m) and, if need be, fps;\n"
     "          pairs have equal names; stamps come from times.txt, from names that are dates, or from fps;\n"
     "          not rectified with left.yaml and right.yaml (ROS), camchain.yaml (Kalibr), or "
     "intrinsics.yml and\n"
     "          extrinsics.yml (OpenCV)\n\n"
-    "base_link is the IMU (the default for euroc) or the left camera with x forward, y left, z up (REP-103;\n"
+    "base_link is the IMU (the default for euroc and kitti_raw) or the left camera with x forward, y left, z up (REP-103;\n"
     "the default for the others). The ground truth gives poses of base_link.\n\nOptions";
 
 std::atomic<bool> interrupted{false};
@@ -69,8 +72,9 @@ po::options_description describeOptions(Arguments& arguments, double& right_stam
 }
 
 void checkArguments(const Arguments& arguments) {
-  if (arguments.format != "euroc" && arguments.format != "kitti" && arguments.format != "images") {
-    throw InputError("--format must be euroc, kitti or images" +
+  const std::set<std::string> formats = {"euroc", "kitti", "kitti_raw", "images"};
+  if (formats.count(arguments.format) == 0) {
+    throw InputError("--format must be euroc, kitti, kitti_raw or images" +
                      (arguments.format.empty() ? std::string() : ", not '" + arguments.format + "'"));
   }
   if (arguments.folder.empty()) throw InputError("no DIR given");
@@ -86,10 +90,15 @@ void checkArguments(const Arguments& arguments) {
   }
 }
 
+/// Whether the layout has a body that carries the IMU.
+bool knowsImu(const std::string& format) {
+  return format == "euroc" || format == "kitti_raw";
+}
+
 BaseFrame baseFrame(const std::string& name, const std::string& format) {
   if (name == "camera") return BaseFrame::kCamera;
   if (name != "imu") throw InputError("--base-frame must be imu or camera, not '" + name + "'");
-  if (format == "euroc") return BaseFrame::kImu;
+  if (knowsImu(format)) return BaseFrame::kImu;
   throw InputError("--base-frame imu: the " + format + " layout knows no IMU; use --base-frame camera");
 }
 
@@ -103,7 +112,7 @@ bool parse(int argc, char** argv, Arguments& arguments) {
   arguments.bag.imu = values.count("no-imu") == 0;
   arguments.bag.right_stamp_offset_s = 1e-3 * right_stamp_offset_ms;
   checkArguments(arguments);
-  const char* default_base = arguments.format == "euroc" ? "imu" : "camera";
+  const char* default_base = knowsImu(arguments.format) ? "imu" : "camera";
   arguments.bag.base_frame =
       baseFrame(values.count("base-frame") != 0 ? values["base-frame"].as<std::string>() : default_base,
                 arguments.format);
@@ -112,6 +121,7 @@ bool parse(int argc, char** argv, Arguments& arguments) {
 
 Sequence readSequence(const Arguments& arguments) {
   if (arguments.format == "euroc") return readEuroc(arguments.folder, arguments.bag.imu);
+  if (arguments.format == "kitti_raw") return readKittiRaw(arguments.folder, arguments.bag.imu);
   return arguments.format == "kitti" ? readKitti(arguments.folder) : readImages(arguments.folder);
 }
 

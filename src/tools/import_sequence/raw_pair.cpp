@@ -65,7 +65,7 @@ sensor_msgs::CameraInfo toInfo(const RawLens& lens, const cv::Size& size, const 
 
 }  // namespace
 
-void useRawPair(const RawPair& pair, Sequence& sequence) {
+RectifyingPair rectifyingPair(const RawPair& pair, const Sequence& sequence) {
   const cv::Size size = pair.size.area() > 0 ? pair.size : sequence.left.frames->read(0).size();
   const bool fisheye =
       pair.left.model == LensModel::kEquidistant || pair.right.model == LensModel::kEquidistant;
@@ -78,9 +78,11 @@ void useRawPair(const RawPair& pair, Sequence& sequence) {
   cv::stereoRectify(pair.left.K, fisheye ? none : pair.left.D, pair.right.K, fisheye ? none : pair.right.D,
                     size, pair.R_right_left, pair.t_right_left, R_left, R_right, P_left, P_right, Q,
                     cv::CALIB_ZERO_DISPARITY, fisheye ? -1.0 : 0.0, size);
-  useRectification(
-      {pair.source, toInfo(pair.left, size, R_left, P_left), toInfo(pair.right, size, R_right, P_right)},
-      sequence);
+  return {pair.source, toInfo(pair.left, size, R_left, P_left), toInfo(pair.right, size, R_right, P_right)};
+}
+
+void useRawPair(const RawPair& pair, Sequence& sequence) {
+  useRectification(rectifyingPair(pair, sequence), sequence);
 }
 
 void useRectification(const RectifyingPair& pair, Sequence& sequence) {

@@ -46,6 +46,12 @@ std::optional<RawPair> readRawPair(const std::string& folder);
 /// `left.yaml` and `right.yaml` of ROS in a folder; nothing where there is none. Throws InputError.
 std::optional<RectifyingPair> readRosPair(const std::string& folder);
 
+/// Throws InputError for a pair that cannot be rectified: no rotation, focal lengths, cameras swapped.
+void checkRawPair(const RawPair& pair);
+
+/// The rectification of the pair with zero disparity at infinity and no unseen pixel.
+RectifyingPair rectifyingPair(const RawPair& pair, const Sequence& sequence);
+
 /// Finds the rectification of the pair and gives it to the sequence, see useRectification(), which judges it.
 void useRawPair(const RawPair& pair, Sequence& sequence);
 

@@ -108,7 +108,14 @@ RawPair readOpenCv(const std::string& intrinsics_path, const std::string& extrin
   return pair;
 }
 
-void check(const RawPair& pair) {
+sensor_msgs::CameraInfo readCameraInfo(const std::string& path) {
+  if (!fs::exists(path)) throw InputError(path + ": does not exist; the other camera's file is there");
+  return ros_io::readCalibrationFile(path);
+}
+
+}  // namespace
+
+void checkRawPair(const RawPair& pair) {
   const cv::Matx33d rest = pair.R_right_left.t() * pair.R_right_left - cv::Matx33d::eye();
   if (cv::norm(rest) > 1e-3 || cv::determinant(pair.R_right_left) < 0.0) {
     throw InputError(pair.source + ": the rotation between the cameras is no rotation matrix");
@@ -122,13 +129,6 @@ void check(const RawPair& pair) {
   throw InputError(pair.source +
                    ": the second camera does not lie to the right of the first one; are the two swapped?");
 }
-
-sensor_msgs::CameraInfo readCameraInfo(const std::string& path) {
-  if (!fs::exists(path)) throw InputError(path + ": does not exist; the other camera's file is there");
-  return ros_io::readCalibrationFile(path);
-}
-
-}  // namespace
 
 std::optional<RawPair> readRawPair(const std::string& folder) {
   std::optional<RawPair> pair;
@@ -145,7 +145,7 @@ std::optional<RawPair> readRawPair(const std::string& folder) {
       throw InputError(entry.path().string() + ": is not as Kalibr writes it: " + error.what());
     }
   }
-  if (pair) check(*pair);
+  if (pair) checkRawPair(*pair);
   return pair;
 }
 

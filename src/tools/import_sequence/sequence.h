@@ -61,6 +61,12 @@ Sequence readEuroc(const std::string& folder, bool with_imu = true);
 /// `poses.txt` (left camera in its first pose). Times count from kStartTime_s.
 Sequence readKitti(const std::string& folder);
 
+/// KITTI raw: a drive `YYYY_MM_DD/YYYY_MM_DD_drive_NNNN_sync` (rectified) or `..._extract` (raw) with
+/// `image_00`, `image_01` (else `image_02`, `image_03`) and, if it exists, `oxts`; the calib_*.txt lie beside
+/// the drive. Each camera keeps its stamps. Body = the inertial unit; the world of its poses has x east, z
+/// up. Without `with_imu`, its rates are left out.
+Sequence readKittiRaw(const std::string& folder, bool with_imu = true);
+
 /// Rectified pairs in `DIR/left` and `DIR/right`, or in two videos whose names end in L and R or in left and
 /// right; `calib.txt` with lines `fx`, `fy`, `cx`, `cy` (px), `baseline` (m) and, if need be, `fps`. Frame i
 /// is taken at kStartTime_s + i / fps; without that line a video's own rate counts, and 10 Hz for folders

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/calib3d.hpp>
 #include <random>
 
 #include "core/angles.h"
@@ -107,6 +108,32 @@ TEST_F(BoardPoseTest, AnglesOfViewAreThoseOfTheRays) {
   EXPECT_NEAR(ideal.horizontalView_rad() / kRadPerDeg, 90.0, 1e-3);
   EXPECT_NEAR(ideal.verticalView_rad() / kRadPerDeg, 90.0, 1e-3);
   EXPECT_NEAR(rectifiedView_rad(320.0, 319.5, 640) / kRadPerDeg, 90.0, 1e-9);
+}
+
+TEST_F(BoardPoseTest, AnEquidistantLensIsJudgedAsOne) {
+  CameraModel lens = rig_.left;
+  lens.equidistant = true;
+  lens.D = (cv::Mat_<double>(1, 4) << 0.02, -0.01, 0.005, 0.0);
+  std::vector<cv::Point3d> board;
+  for (const Eigen::Vector3d& corner : board_.corners()) board.emplace_back(corner.x(), corner.y(), 0.0);
+  const cv::Vec3d rotation(0.2, -0.3, 0.1), translation(-0.1, -0.05, 0.4);
+  std::vector<cv::Point2d> raw, rectified;
+  cv::fisheye::projectPoints(board, raw, rotation, translation, lens.K, lens.D);
+  const std::vector<cv::Point2f> seen(raw.begin(), raw.end());
+  EXPECT_LT(lensError_px(lens, board_, seen), 1e-3);
+  EXPECT_GT(lensError_px(rig_.left, board_, seen), 0.3) << "it is none of plumb_bob";
+
+  lens.R = cv::Matx33d::eye();
+  cv::projectPoints(board, rotation, translation, lens.P.get_minor<3, 3>(0, 0), cv::noArray(), rectified);
+  const auto pixels = lens.rectify(seen);
+  ASSERT_EQ(pixels.size(), rectified.size());
+  EXPECT_NEAR(pixels[0].x(), rectified[0].x, 1e-3);
+  EXPECT_NEAR(pixels[0].y(), rectified[0].y, 1e-3);
+
+  lens.D = cv::Mat::zeros(1, 4, CV_64FC1);
+  lens.size = {640, 480};
+  lens.K = cv::Matx33d(320, 0, 319.5, 0, 240, 239.5, 0, 0, 1);
+  EXPECT_NEAR(lens.horizontalView_rad(), 2.0, 1e-6) << "the angle grows with the radius";
 }
 
 }  // namespace

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include <string>
+#include <vector>
+
+namespace stereo_nav::ros_io {
+
+/// Sorts the stamps of a topic's images and leaves out those that are 0 and all but one of equal ones; a line
+/// for each kind is added to `notes`. Throws InputError when none is left.
+void keepUsableStamps(const std::string& topic, std::vector<ros::Time>& stamps,
+                      std::vector<std::string>& notes);
+
+}  // namespace stereo_nav::ros_io
