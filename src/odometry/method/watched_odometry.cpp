@@ -1,5 +1,7 @@
 #include "odometry/method/watched_odometry.h"
 
+#include <utility>
+
 namespace stereo_nav::odometry {
 namespace {
 
@@ -38,7 +40,7 @@ FrameResult WatchedOdometry::process(const StereoFrame& frame) {
   if (has_previous && isTracked(result) && previous_result_.state != State::kLost)
     contradiction_.add(previous_.left_time_s, frame.left_time_s,
                        result.T_previous_current.linear().transpose());
-  if (has_previous && !witness_ && isSuspicious(result)) startWitness();
+  if (has_previous && !witness_ && !frame.right.empty() && isSuspicious(result)) startWitness();
   if (witness_) {
     if (const auto taken_over = askWitness(frame)) return *taken_over;
   }
@@ -60,9 +62,23 @@ bool WatchedOdometry::isSuspicious(const FrameResult& result) const {
 }
 
 void WatchedOdometry::startWitness() {
-  witness_.emplace(Witness{makeOdometry(config_, calibration_, axes_.R_camera_imu()), ImuContradiction(axes_),
+  // The thesis' method is no judge: without IMU it follows whatever moves.
+  const OdometryConfig config = config_.method() == Method::kStereo ? config_ : OdometryConfig();
+  witness_.emplace(Witness{makeOdometry(config, calibration_, axes_.R_camera_imu()), ImuContradiction(axes_),
                            previous_result_.T_start_camera, previous_.left_time_s});
   witness_->odometry->process(previous_);
+}
+
+FrameResult WatchedOdometry::takeOver(const StereoFrame& frame, FrameResult seen) {
+  witness_took_over_ = true;
+  if (config_.method() != Method::kStereo) {
+    witness_->odometry = makeOdometry(config_, calibration_, axes_.R_camera_imu());
+    witness_->T_start_first = previous_result_.T_start_camera;
+    witness_->odometry->process(previous_);
+    seen = witness_->odometry->process(frame);
+  }
+  seen.T_start_camera = witness_->T_start_first * seen.T_start_camera;
+  return seen;
 }
 
 std::optional<FrameResult> WatchedOdometry::askWitness(const StereoFrame& frame) {
@@ -73,9 +89,7 @@ std::optional<FrameResult> WatchedOdometry::askWitness(const StereoFrame& frame)
   }
   if (const auto problem = witness_->contradiction.find(imu_)) {
     imu_problem_ = *problem;
-    witness_took_over_ = true;
-    result.T_start_camera = witness_->T_start_first * result.T_start_camera;
-    return result;
+    return takeOver(frame, std::move(result));
   }
   if (frame.left_time_s > witness_->since_s + kWitness_s) {
     witness_.reset();

@@ -10,8 +10,9 @@ namespace stereo_nav::odometry {
 
 /// An odometry that does not believe an IMU which contradicts the images. As long as the two agree, its
 /// results are those of the odometry alone, and so is its cost. When frames are lost or the turns disagree,
-/// an odometry without IMU runs beside it for some seconds; if what this one sees contradicts the IMU, the
-/// IMU is set aside and the odometry by vision alone takes over from where it began.
+/// an odometry without IMU runs beside it for some seconds: the default one, since the thesis' method without
+/// IMU follows whatever moves. If what this one sees contradicts the IMU, the IMU is set aside and an
+/// odometry by vision alone takes over.
 class WatchedOdometry : public Odometry {
  public:
   WatchedOdometry(const OdometryConfig& config, const vision::StereoCalibration& calibration,
@@ -39,6 +40,8 @@ class WatchedOdometry : public Odometry {
   void startWitness();
   /// Lets the witness see the frame; returns its result where it takes over.
   std::optional<FrameResult> askWitness(const StereoFrame& frame);
+  /// The odometry of the configuration goes on without IMU; `seen` is the witness' result of the frame.
+  FrameResult takeOver(const StereoFrame& frame, FrameResult seen);
 
   OdometryConfig config_;
   vision::StereoCalibration calibration_;
