@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "ros/judged_infos.h"
 #include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::ros_io {
@@ -34,7 +35,9 @@ geometry_msgs::TransformStamped transform(const ros::Time& stamp, const char* ch
 
 SimulatedMessages::SimulatedMessages(const sim::Simulation& simulation, const ros::Time& start,
                                      const Eigen::Isometry3d& T_base_imu)
-    : simulation_(simulation), start_(start), T_base_imu_(T_base_imu) {}
+    : simulation_(simulation), start_(start), T_base_imu_(T_base_imu) {
+  judgeInfos(info(sim::Side::kLeft, {}), info(sim::Side::kRight, {}));
+}
 
 sensor_msgs::CameraInfo SimulatedMessages::info(sim::Side side, const std_msgs::Header& header) const {
   const sim::CameraCalibration& calibration = simulation_.calibration(side);

@@ -31,6 +31,7 @@ struct PairMessages {
 /// `simulation` must outlive this object.
 class SimulatedMessages {
  public:
+  /// Throws InputError for a calibration that judgeInfos() refuses.
   SimulatedMessages(const sim::Simulation& simulation, const ros::Time& start,
                     const Eigen::Isometry3d& T_base_imu = Eigen::Isometry3d::Identity());
 

@@ -248,6 +248,19 @@ TEST_F(ForeignRecordingTest, OneCameraInfoIsEnough) {
   EXPECT_EQ(meanDifference(), 0.0);
 }
 
+TEST_F(ForeignRecordingTest, ABagWhoseRecorderWasKilledIsRefusedWithTheRemedy) {
+  const std::string unfinished = (folder_ / "unfinished.bag").string();
+  {
+    rosbag::Bag source(original_);
+    rosbag::Bag bag(unfinished, rosbag::bagmode::Write);
+    rosbag::View view(source);
+    for (const rosbag::MessageInstance& message : view)
+      bag.write(message.getTopic(), message.getTime(), message);
+    std::filesystem::copy_file(unfinished, copy_);  // before its index is written
+  }
+  EXPECT_TRUE(contains(refusalOfCopy(), "rosbag reindex " + copy_)) << refusalOfCopy();
+}
+
 TEST_F(ForeignRecordingTest, ABagThatWasCutOffIsRefusedWithTheRemedy) {
   const auto all = std::filesystem::file_size(original_);
   for (const double part : {0.1, 0.5, 0.9, 0.999}) {

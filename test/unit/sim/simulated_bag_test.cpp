@@ -65,6 +65,19 @@ TEST(SimulatedBag, IsARecordingWithTruePairsImuTransformsAndTruth) {
   });
 }
 
+TEST(SimulatedBag, ItsCalibrationIsJudgedAsThatOfARecording) {
+  sim::StereoCalibrationPair rig = sim::thesisRig();
+  rig.right.P(0, 3) *= 1000.0;  // a baseline in mm
+  const sim::Simulation simulation(shortScenario(), rig, 1);
+  try {
+    writeSimulatedBag(testing::TempDir() + "mm.bag", simulation, {0.1, 1, true, false},
+                      [](std::size_t, std::size_t) {});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("expected are 0.02 to 2 m"), std::string::npos) << error.what();
+  }
+}
+
 TEST(SimulatedBag, SaysWhatItCannotWrite) {
   const sim::Simulation simulation(shortScenario(), sim::thesisRig(), 1);
   EXPECT_THROW(writeSimulatedBag("/dev/null/x.bag", simulation, {0.1, 1, true, false},
