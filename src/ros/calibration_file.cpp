@@ -29,12 +29,40 @@ void checkCameraModel(const std::string& path, const std::string& distortion_mod
       "where the coefficients are the four of OpenCV's fisheye model");
 }
 
+/// ROS's reader ends the process on a matrix whose numbers are not as many as its rows and columns say.
+void checkMatrices(const std::string& path) {
+  YAML::Node file;
+  try {
+    file = YAML::LoadFile(path);
+  } catch (const YAML::Exception&) {
+    return;  // not YAML: ROS's reader for the other format counts by itself
+  }
+  if (!file.IsMap()) return;
+  for (const char* name :
+       {"camera_matrix", "distortion_coefficients", "rectification_matrix", "projection_matrix"}) {
+    const YAML::Node matrix = file[name];
+    if (!matrix || !matrix.IsMap()) continue;
+    const YAML::Node data = matrix["data"];
+    const auto rows = matrix["rows"] ? matrix["rows"].as<long long>(-1) : -1;
+    const auto columns = matrix["cols"] ? matrix["cols"].as<long long>(-1) : -1;
+    const auto count = data ? static_cast<long long>(data.size()) : -1;
+    constexpr long long kMost = 14;  // coefficients of rational_polynomial; the other matrices are smaller
+    const bool fits =
+        rows >= 0 && columns >= 0 && rows <= kMost && columns <= kMost && rows * columns == count;
+    if (fits) continue;
+    throw InputError(path + ": " + name +
+                     " has not as many numbers as its rows and cols say; take the file as "
+                     "camera_calibration saved it");
+  }
+}
+
 }  // namespace
 
 sensor_msgs::CameraInfo readCalibrationFile(const std::string& path) {
   if (!std::filesystem::exists(path)) throw InputError(path + ": does not exist");
   std::string name;
   sensor_msgs::CameraInfo info;
+  checkMatrices(path);
   if (!camera_calibration_parsers::readCalibration(path, name, info)) {
     throw InputError(path +
                      ": cannot be read as a camera calibration; it must be as camera_calibration saves it");

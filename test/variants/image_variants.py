@@ -76,13 +76,14 @@ def image_variants():
                 for bits in (10, 16)]
     formats += [Variant(f'{name} images', converted(name, code), right=True) for name, code in grey_to.items()]
     formats += [Variant(f'{name} images', labelled(name), right=True)
-                for name in ('bayer_rggb8', 'bayer_grbg8', '8UC1')]
+                for name in ('bayer_rggb8', 'bayer_grbg8')]
     return formats + [
         Variant('mono16 with exchanged bytes', bytes_exchanged, right=True),
         Variant('rows with unused bytes', padded, right=True),
         Variant('compressed jpeg', compressed('.jpg'), right=True),
         Variant('compressed jpeg, colour', compressed('.jpg', colour=True), right=True),
         Variant('compressed png', compressed('.png'), right=True),
+        Variant('8UC1 images', labelled('8UC1'), names='8UC1'),
         Variant('unknown encoding', labelled('fancy8'), names='fancy8|encoding'),
         Variant('image data cut off', short_data, names='bytes|data|lost|step'),
         Variant('right images of another size', other_size_right, names='size|160'),
