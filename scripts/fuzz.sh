@@ -23,7 +23,7 @@ flags=$build/src/tools/import_sequence/CMakeFiles/stereo_nav_import.dir/flags.ma
 }
 mkdir -p "$build/fuzz/objects" "$build/fuzz/inputs_$kind" "$root/test/fuzz/corpus/$kind"
 read -ra includes < <(sed -n 's/^CXX_INCLUDES = //p' "$flags")
-sanitize=(-fsanitize=address,undefined -fno-sanitize-recover=all)
+sanitize=("-fsanitize=address,undefined" -fno-sanitize-recover=all)
 cd "$root"
 
 sources=(test/fuzz/input_fuzz.cpp test/fuzz/input_fuzz_main.cpp src/core/{rig_file,text_table,parameters}.cpp
