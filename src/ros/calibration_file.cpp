@@ -38,8 +38,13 @@ void checkMatrices(const std::string& path) {
     return;  // not YAML: ROS's reader for the other format counts by itself
   }
   if (!file.IsMap()) return;
-  for (const char* name :
-       {"camera_matrix", "distortion_coefficients", "rectification_matrix", "projection_matrix"}) {
+  struct Size {
+    const char* name;
+    long long rows, columns;  ///< 0: any
+  };
+  for (const auto& [name, needed_rows, needed_columns] :
+       {Size{"camera_matrix", 3, 3}, Size{"distortion_coefficients", 0, 0},
+        Size{"rectification_matrix", 3, 3}, Size{"projection_matrix", 3, 4}}) {
     const YAML::Node matrix = file[name];
     if (!matrix || !matrix.IsMap()) continue;
     const YAML::Node data = matrix["data"];
@@ -49,7 +54,8 @@ void checkMatrices(const std::string& path) {
     constexpr long long kMost = 14;  // coefficients of rational_polynomial; the other matrices are smaller
     const bool fits =
         rows >= 0 && columns >= 0 && rows <= kMost && columns <= kMost && rows * columns == count;
-    if (fits) continue;
+    const bool sized = needed_rows == 0 || (rows == needed_rows && columns == needed_columns);
+    if (fits && sized) continue;
     throw InputError(path + ": " + name +
                      " has not as many numbers as its rows and cols say; take the file as "
                      "camera_calibration saved it");
