@@ -108,6 +108,17 @@ CameraFields judgeCamera(const std::string& name, CameraFields camera, std::vect
   return camera;
 }
 
+/// Images that were scaled after the calibration have their principal point far from the middle along both
+/// axes alike; those that were cropped seldom have.
+void noteScaledImages(const std::string& name, const CameraFields& camera, std::vector<std::string>& notes) {
+  constexpr double kFar = 0.2;  // of the image's size
+  const double x = camera.K(0, 2) / camera.size.width - 0.5;
+  const double y = camera.K(1, 2) / camera.size.height - 0.5;
+  if (std::abs(x) < kFar || std::abs(y) < kFar || x * y < 0.0) return;
+  notes.push_back(name + ": the principal point of K lies far from the middle of " + sizeText(camera.size) +
+                  " along both axes; is the calibration of another image size?");
+}
+
 }  // namespace
 
 JudgedPair judgePair(const CameraFields& left, const CameraFields& right) {
@@ -117,6 +128,8 @@ JudgedPair judgePair(const CameraFields& left, const CameraFields& right) {
   pair.right = judgeCamera(right_name, right, pair.notes);
   pair.calibration = sharedGeometry(pair.left, pair.right);
   checkBaseline(pair.calibration, pair.right.P(0, 3));
+  noteScaledImages(left_name, pair.left, pair.notes);
+  noteScaledImages(right_name, pair.right, pair.notes);
   keepFromBeingCopied(left_name, pair.left, pair.notes);
   keepFromBeingCopied(right_name, pair.right, pair.notes);
   pair.calibration.validate();

@@ -106,6 +106,10 @@ sensor_msgs::CameraInfo toCameraInfo(const RawCamera& camera, const cv::Matx33d&
 
 ros::Time stampOf(const TextRow& row, const ros::Time& previous) {
   const long long nanoseconds = row.integer(0);
+  constexpr long long kLatest_ns = 4294967294LL * 1000000000LL;  // ros::Time counts in 32 bits
+  if (nanoseconds > kLatest_ns) {
+    throw InputError(row.source + ": the stamp " + row.fields[0] + " is no date in nanoseconds before 2106");
+  }
   ros::Time stamp;
   if (nanoseconds > 0) stamp.fromNSec(static_cast<std::uint64_t>(nanoseconds));
   if (stamp > previous) return stamp;

@@ -13,6 +13,11 @@ namespace stereo_nav::tools {
 namespace {
 
 ros::Time toStamp(double time_s) {
+  constexpr double kLatest_s = 4e9;  // ros::Time counts in 32 bits
+  if (!(time_s >= 0.0 && time_s < kLatest_s)) {
+    throw InputError("times.txt: the stamp " + std::to_string(time_s) +
+                     " is no time in seconds since the first image; take the file as KITTI gives it");
+  }
   ros::Time stamp;
   return stamp.fromNSec(static_cast<std::uint64_t>(std::llround((kStartTime_s + time_s) * 1e9)));
 }

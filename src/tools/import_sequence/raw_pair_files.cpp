@@ -67,9 +67,14 @@ RawPair readKalibr(const std::string& path) {
 std::vector<double> readMatrix(const cv::FileStorage& file, const std::string& path, const std::string& name,
                                std::size_t count) {
   cv::Mat matrix, values;
-  if (file[name].isMap()) file[name] >> matrix;
+  try {
+    if (file[name].isMap()) file[name] >> matrix;
+  } catch (const cv::Exception&) {
+    matrix.release();  // sizes that no matrix has, said below
+  }
   if (!matrix.empty()) matrix.convertTo(values, CV_64F);
-  std::vector<double> result(values.begin<double>(), values.end<double>());
+  std::vector<double> result;
+  if (!values.empty()) result.assign(values.begin<double>(), values.end<double>());
   const bool finite = std::all_of(result.begin(), result.end(), [](double v) { return std::isfinite(v); });
   if (finite && !result.empty() && (count == 0 || result.size() == count)) return result;
   throw InputError(path + ": " + name + " is missing or has not the size that stereo_calib writes");

@@ -66,6 +66,14 @@ TEST(EurocLayout, findsTheFoldersBelowMav0AndDoesWithoutImu) {
   EXPECT_EQ(sequence.notes.size(), 2u);
 }
 
+/// A finding of scripts/fuzz.sh: ROS's message named no file.
+TEST(EurocLayout, refusesStampsThatNoTimeHolds) {
+  const TemporaryFolder folder;
+  writeEuroc(folder);
+  folder.write("cam0/data.csv", "9223372036854775807,a.png\n");
+  EXPECT_NE(errorOf(euroc, folder).find("is no date in nanoseconds"), std::string::npos);
+}
+
 TEST(EurocLayout, namesWhatItCannotUse) {
   const TemporaryFolder folder;
   EXPECT_NE(errorOf(euroc, folder).find("cam0: does not exist"), std::string::npos);

@@ -1,5 +1,6 @@
 // Calibrations of pairs that are not rectified.
 #include <cmath>
+#include <filesystem>
 
 #include "import_test_support.h"
 #include "stereo_nav/core/input_error.h"
@@ -139,6 +140,21 @@ TEST_F(RawPairs, refusesWhatItCannotUse) {
   folder_.write("left.yaml", fisheye);
   EXPECT_NE(refusal().find("camera_model 'fisheye' with distortion_model 'plumb_bob' is not supported"),
             std::string::npos);
+}
+
+// Findings of scripts/fuzz.sh: ROS's reader ended the process, OpenCV's message named no file.
+TEST_F(RawPairs, refusesMatricesOfAnotherSizeThanTheySay) {
+  folder_.write("right.yaml", rosInfo("plumb_bob", "[0, 0, 0, 0, 0]", 5, 0.0, -4.0));
+  folder_.write("left.yaml", rosInfo("plumb_bob", "[0.1, 0, 0, 0]", 5, 0.0, 0.0));
+  EXPECT_NE(refusal().find("left.yaml: distortion_coefficients has not as many numbers as its rows and cols"),
+            std::string::npos);
+  std::filesystem::remove(folder_ / "left.yaml");
+  std::filesystem::remove(folder_ / "right.yaml");
+  folder_.write(
+      "intrinsics.yml",
+      "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: -3\n   cols: 3\n   dt: d\n   data: [1., 2.]\n");
+  folder_.write("extrinsics.yml", "%YAML:1.0\n---\nR: 0\n");
+  EXPECT_NE(refusal().find("intrinsics.yml: M1 is missing or has not the size"), std::string::npos);
 }
 
 }  // namespace
