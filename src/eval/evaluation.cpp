@@ -124,6 +124,7 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
   summary.input = input.input;
   summary.config = input.config;
   summary.imu_set_aside = input.imu_set_aside;
+  summary.stretches = input.stretches;
   summary.frames = input.frames.size();
   summary.path_length_m =
       pathLength(positions(moved(Eigen::Isometry3d::Identity(), T_odom_base, input.T_base_camera)));
@@ -180,7 +181,7 @@ Evaluation evaluate(const EvaluationInput& input) {
 Trajectory estimatedTrajectory(const EvaluationInput& input) {
   Trajectory trajectory;
   for (const auto& frame : input.frames) {
-    if (frame.T_odom_base) trajectory.push_back({frame.time_s, *frame.T_odom_base});
+    if (frame.T_odom_base) trajectory.push_back({frame.time_s - frame.clock_offset_s, *frame.T_odom_base});
   }
   return trajectory;
 }
@@ -215,6 +216,7 @@ std::string toJson(const EvaluationSummary& summary) {
   json.add("input", summary.input);
   json.add("frames_with_ground_truth", summary.frames_with_ground_truth);
   json.add("imu_set_aside", summary.imu_set_aside);
+  json.add("stretches", summary.stretches);
   JsonObject intervals;
   for (std::size_t k = 0; k < kNeesIntervals_s.size(); ++k)
     intervals.add(fmt::format("{:g}", kNeesIntervals_s[k]), toJson(summary.nees[k]));

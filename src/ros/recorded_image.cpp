@@ -3,8 +3,10 @@
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <boost/make_shared.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "ros/image_stamp.h"
 #include "stereo_nav/core/input_error.h"
@@ -36,6 +38,17 @@ std::string encodingOf(const sensor_msgs::CompressedImage& image, const cv::Mat&
   return grey.depth() == CV_8U ? image_enc::MONO8 : image_enc::MONO16;
 }
 
+/// cv_bridge takes big-endian values of 16 bits for two channels.
+sensor_msgs::ImageConstPtr littleEndian(const sensor_msgs::Image& image) {
+  const auto swapped = boost::make_shared<sensor_msgs::Image>(image);
+  swapped->is_bigendian = 0;
+  const std::string& encoding = image.encoding;
+  const bool has_16_bits = encoding.size() > 2 && encoding.compare(encoding.size() - 2, 2, "16") == 0;
+  for (std::size_t i = 0; has_16_bits && i + 1 < swapped->data.size(); i += 2)
+    std::swap(swapped->data[i], swapped->data[i + 1]);
+  return swapped;
+}
+
 }  // namespace
 
 sensor_msgs::ImagePtr decompressed(const sensor_msgs::CompressedImage& image) {
@@ -51,7 +64,8 @@ sensor_msgs::ImagePtr decompressed(const sensor_msgs::CompressedImage& image) {
 sensor_msgs::ImageConstPtr recordedImage(const rosbag::MessageInstance& message) {
   if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>())
     return decompressed(*compressed);
-  return message.instantiate<sensor_msgs::Image>();
+  const auto image = message.instantiate<sensor_msgs::Image>();
+  return image && image->is_bigendian ? littleEndian(*image) : image;
 }
 
 std::optional<ros::Time> recordedImageStamp(const rosbag::MessageInstance& message) {

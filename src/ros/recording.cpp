@@ -49,6 +49,21 @@ void checkFinite(const ImuSample& sample, const std::string& topic) {
   throw InputError(message.str());
 }
 
+/// All three stamps of each message.
+void straightenSync(const RecordedClock& clock, std::vector<StereoSync>& sync) {
+  if (clock.jumps() == 0) return;
+  for (ros::Time StereoSync::*own : {&StereoSync::left_stamp, &StereoSync::right_stamp}) {
+    std::vector<ros::Time> stamps;
+    for (const StereoSync& message : sync) stamps.push_back(message.*own);
+    clock.straighten(stamps);
+    for (std::size_t i = 0; i < sync.size(); ++i) sync[i].*own = stamps[i];
+  }
+  std::vector<ros::Time> stamps;
+  for (const StereoSync& message : sync) stamps.push_back(message.header.stamp);
+  clock.straighten(stamps);
+  for (std::size_t i = 0; i < sync.size(); ++i) sync[i].header.stamp = stamps[i];
+}
+
 }  // namespace
 
 Recording::Recording(const std::string& path, const RecordingOptions& options) : path_(path) {
@@ -152,6 +167,7 @@ sensor_msgs::CameraInfo Recording::firstInfo(const std::string& topic) {
 void Recording::readMessages() {
   left_info_ = firstInfo(topics_.left_info);
   right_info_ = firstInfo(topics_.right_info);
+  std::vector<ReceivedStamp> left_images;
   rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
   for (const rosbag::MessageInstance& message : view) {
     const auto stamp = recordedImageStamp(message);
@@ -159,11 +175,23 @@ void Recording::readMessages() {
       throw InputError(path_ + ": " + message.getTopic() + " is " + message.getDataType() +
                        ", expected sensor_msgs/Image or sensor_msgs/CompressedImage");
     }
-    (message.getTopic() == topics_.left ? left_stamps_ : right_stamps_).push_back(*stamp);
+    const bool is_left = message.getTopic() == topics_.left;
+    (is_left ? left_stamps_ : right_stamps_).push_back(*stamp);
+    if (is_left) left_images.push_back({*stamp, message.getTime()});
   }
   if (left_stamps_.empty() || right_stamps_.empty()) {
     throw InputError(path_ + ": " + std::to_string(left_stamps_.size()) + " left and " +
                      std::to_string(right_stamps_.size()) + " right images; both cameras are needed");
+  }
+  clock_ = RecordedClock(left_images);
+  clock_.straighten(left_stamps_);
+  clock_.straighten(right_stamps_);
+  left_in_order_ = left_stamps_;
+  right_in_order_ = right_stamps_;
+  if (clock_.jumps() > 0) {
+    notes_.push_back(
+        "the clock of the recorded computer was set back (times: " + std::to_string(clock_.jumps()) +
+        "); what follows is taken in the order of recording, by the times of receipt");
   }
 }
 
@@ -187,6 +215,7 @@ void Recording::readImu() {
     checkFinite(sample, topic);
     imu_.push_back(sample);
   }
+  clock_.straighten(imu_, [](ImuSample& sample) -> double& { return sample.time_s; });
   std::stable_sort(imu_.begin(), imu_.end(),
                    [](const ImuSample& a, const ImuSample& b) { return a.time_s < b.time_s; });
 }
@@ -208,6 +237,7 @@ void Recording::pairImages(const RecordingOptions& options) {
       sync.push_back(*pair);
     }
   }
+  straightenSync(clock_, sync);
   const std::size_t images = left_stamps_.size() + right_stamps_.size();
   keepUsableStamps(path_ + ": " + topics_.left, left_stamps_, notes_);
   keepUsableStamps(path_ + ": " + topics_.right, right_stamps_, notes_);
@@ -237,6 +267,9 @@ void Recording::pairImages(const RecordingOptions& options) {
             << (left_stamps_.back() - left_stamps_.front()).toSec() << " s";
     throw InputError(message.str());
   }
+  std::vector<double> times_s;
+  for (const StampPair& pair : pairs_) times_s.push_back(pair.left_time_s);
+  notePauses(times_s, notes_);
 }
 
 std::optional<Eigen::Isometry3d> Recording::transform(const std::string& target,
@@ -274,6 +307,7 @@ Recording::GroundTruth Recording::groundTruth(const std::string& topic, bool req
           ", expected nav_msgs/Odometry, geometry_msgs/PoseStamped or geometry_msgs/TransformStamped");
     }
   }
+  clock_.straighten(truth.trajectory, [](StampedPose& pose) -> double& { return pose.time_s; });
   return truth;
 }
 
@@ -288,12 +322,14 @@ void Recording::forEachPair(const std::function<void(const RawPair&)>& handle) c
     pair_of_right[right_stamps_[pairs_[i].right]] = i;
   }
   std::size_t next = 0;
+  std::size_t left_images = 0;
+  std::size_t right_images = 0;
   const vision::BitDepth depth{mono16_bits_, mono16_swapped_};
   rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
   for (const rosbag::MessageInstance& message : view) {
     const bool is_left = message.getTopic() == topics_.left;
     auto& pair_of = is_left ? pair_of_left : pair_of_right;
-    const auto pair = pair_of.find(recordedImageStamp(message).value());
+    const auto pair = pair_of.find(is_left ? left_in_order_[left_images++] : right_in_order_[right_images++]);
     if (pair == pair_of.end()) continue;
     (is_left ? waiting_left : waiting_right)[pair->second] = recordedImage(message);
     pair_of.erase(pair);  // a second image with this stamp is left out

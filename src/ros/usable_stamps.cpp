@@ -1,7 +1,10 @@
 #include "ros/usable_stamps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "core/statistics.h"
 #include "stereo_nav/core/input_error.h"
 
 namespace stereo_nav::ros_io {
@@ -27,6 +30,22 @@ void keepUsableStamps(const std::string& topic, std::vector<ros::Time>& stamps,
   if (repeated > 0) {
     notes.push_back(topic +
                     ": images whose stamp an earlier one has are left out: " + std::to_string(repeated));
+  }
+}
+
+void notePauses(const std::vector<double>& times_s, std::vector<std::string>& notes) {
+  constexpr double kPause_s = 1.0;
+  std::vector<double> periods_s;
+  for (std::size_t i = 1; i < times_s.size(); ++i) periods_s.push_back(times_s[i] - times_s[i - 1]);
+  if (periods_s.empty()) return;
+  std::vector<double> sorted_s = periods_s;
+  const double least_s = std::max(kPause_s, 3.0 * upperMedian(sorted_s));
+  for (std::size_t i = 0; i < periods_s.size(); ++i) {
+    if (periods_s[i] <= least_s) continue;
+    notes.push_back(fmt::format(
+        "a gap of {:.1f} s without images after t = {:.3f} s: the recording paused, or the clock of the computer was set; what "
+        "moved meanwhile is missing, and stretches recorded with the clock set back may lie in another order",
+        periods_s[i], times_s[i]));
   }
 }
 

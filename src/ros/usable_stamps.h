@@ -12,4 +12,9 @@ namespace stereo_nav::ros_io {
 void keepUsableStamps(const std::string& topic, std::vector<ros::Time>& stamps,
                       std::vector<std::string>& notes);
 
+/// A line for each pause of more than a second between one pair and the next, whose stamps are `times_s`:
+/// what moved meanwhile is not in the path, and where the clock of the recording computer was set, the
+/// stretches may lie in another order.
+void notePauses(const std::vector<double>& times_s, std::vector<std::string>& notes);
+
 }  // namespace stereo_nav::ros_io

@@ -18,11 +18,12 @@ namespace stereo_nav::eval {
 struct FrameRecord {
   double time_s = 0.0;                           ///< stamp of the left image
   std::optional<Eigen::Isometry3d> T_odom_base;  ///< absent: the frame is lost
-  std::string reason;                            ///< why the frame is lost; empty where it is not
-  unsigned features = 0;                         ///< number of features of the frame
-  unsigned inliers = 0;                          ///< features that agree with the motion found
-  std::optional<Matrix6d> pose_covariance;       ///< of T_odom_base, axes of odom: m, m, m, rad, rad, rad
-  FrameTiming timing;                            ///< how long the frame took
+  double clock_offset_s = 0.0;  ///< that was added to the recorded stamp, where the clock was set back
+  std::string reason;           ///< why the frame is lost; empty where it is not
+  unsigned features = 0;        ///< number of features of the frame
+  unsigned inliers = 0;         ///< features that agree with the motion found
+  std::optional<Matrix6d> pose_covariance;  ///< of T_odom_base, axes of odom: m, m, m, rad, rad, rad
+  FrameTiming timing;                       ///< how long the frame took
 };
 
 /// Everything that the errors of a run are computed from.
@@ -30,6 +31,7 @@ struct EvaluationInput {
   std::string input;                ///< as named on the command line; goes into the summary
   std::string config;               ///< likewise
   std::vector<FrameRecord> frames;  ///< every input frame, in order of time
+  std::size_t stretches = 1;        ///< between which the clock was set back; time_s goes on
   std::string imu_set_aside;        ///< why the recorded IMU was not used; empty: it was, or there is none
   std::vector<std::string> notes;   ///< what had to be assumed or was left out, one line each
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< of the left optical frame
@@ -86,6 +88,7 @@ struct EvaluationSummary {
   std::string config;                              ///< EvaluationInput::config
   std::string input;                               ///< EvaluationInput::input
   std::string imu_set_aside;                       ///< EvaluationInput::imu_set_aside
+  std::size_t stretches = 1;                       ///< EvaluationInput::stretches
   std::size_t frames_with_ground_truth = 0;        ///< those the errors are taken over
   std::array<Nees, kNeesIntervals_s.size()> nees;  ///< over kNeesIntervals_s
 };

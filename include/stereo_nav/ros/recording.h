@@ -16,6 +16,7 @@
 #include "stereo_nav/core/trajectory.h"
 #include "stereo_nav/ros/conversions.h"
 #include "stereo_nav/ros/pairing.h"
+#include "stereo_nav/ros/recorded_clock.h"
 
 namespace stereo_nav::ros_io {
 
@@ -62,6 +63,11 @@ class Recording {
   /// Frame of the IMU's messages; nothing if there is no IMU, or its messages have no header (the thesis'
   /// imu_quat).
   const std::optional<std::string>& imuFrame() const { return imu_frame_; }
+  /// Number of stretches between which the host's clock was set back. All times that are handed out lie on
+  /// one line of time: those after a jump are moved to where they would lie without it.
+  std::size_t stretches() const { return clock_.jumps() + 1; }
+  /// What was added to the recorded stamp of an image.
+  double clockOffset_s(double time_s) const { return clock_.offset_s(time_s); }
   /// Stamp of the first left image.
   double firstLeft_s() const { return left_stamps_.front().toSec(); }
   /// Stamp of the last left image.
@@ -115,6 +121,9 @@ class Recording {
   std::vector<ros::Time> right_stamps_;
   std::vector<StampPair> pairs_;
   std::size_t unpaired_images_ = 0;
+  RecordedClock clock_;
+  std::vector<ros::Time> left_in_order_;   ///< stamps of all left images in the order of recording
+  std::vector<ros::Time> right_in_order_;  ///< likewise
   std::vector<std::string> notes_;
   int mono16_bits_ = 16;         ///< that mono16 images fill
   bool mono16_swapped_ = false;  ///< whether their bytes are exchanged

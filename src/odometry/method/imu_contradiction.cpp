@@ -15,6 +15,7 @@ namespace stereo_nav::odometry {
 namespace {
 
 constexpr double kWindow_s = 5.0;
+constexpr double kLongestGap_s = 1.0;  ///< between two frames whose turn still tells something
 constexpr double kLeastTurn_rad = 0.25;
 constexpr int kFewestFrames = 10;
 // Where no usual mistake explains it, the images may be wrong as well: more of them have to say so.
@@ -41,6 +42,7 @@ bool ImuContradiction::Comparison::contradicts() const {
 
 void ImuContradiction::add(double previous_s, double current_s, const Eigen::Matrix3d& R_current_previous) {
   if (!turns_.empty() && previous_s < turns_.back().previous_s) turns_.clear();
+  if (current_s - previous_s > kLongestGap_s) return;
   turns_.push_back({previous_s, current_s, -logRotation(R_current_previous)});
   while (turns_.front().previous_s < current_s - kWindow_s) turns_.pop_front();
 }

@@ -113,6 +113,7 @@ class Run {
       record.timing.stages_ms.emplace_back(stage.stage, stage.milliseconds);
     }
     record.time_s = pair.left_time_s;
+    record.clock_offset_s = recording_.clockOffset_s(pair.left_time_s);
     record.pose_covariance = uncertainty_.add(result, record.time_s);
     if (result.state != odometry::State::kLost)
       record.T_odom_base = basePose(T_base_camera_, result.T_start_camera);
@@ -192,6 +193,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.T_base_camera = T_base_camera;
   run.input.camera_frame = recording.leftInfo().header.frame_id;
   run.input.notes = recording.notes();
+  run.input.stretches = recording.stretches();
   run.input.notes.insert(run.input.notes.end(), processing.notes().begin(), processing.notes().end());
   run.input.ground_truth = groundTruthOfBase(options, recording);
   run.input.truth_sigma_m = options.truth_sigma_m;

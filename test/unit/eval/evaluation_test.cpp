@@ -164,6 +164,7 @@ TEST(EvaluationSummary, fileHasFixedKeysAndRoundTripNumbers) {
             "  \"input\": \"x.bag\",\n"
             "  \"frames_with_ground_truth\": 0,\n"
             "  \"imu_set_aside\": \"\",\n"
+            "  \"stretches\": 1,\n"
             "  \"nees\": {\n"
             "    \"0.2\": {\n" +
                 no_nees +

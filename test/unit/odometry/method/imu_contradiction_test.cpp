@@ -136,6 +136,13 @@ TEST_F(ImuContradictionTest, WhatNothingExplainsIsStillSaid) {
   EXPECT_TRUE(contains(found(), "is it fixed to the rig"));
 }
 
+TEST_F(ImuContradictionTest, AGapOfAMinuteTellsNothing) {
+  contradiction_.add(kStart_s, kStart_s + 60.0, expRotation(Eigen::Vector3d(0.0, 1.0, 0.0)));
+  EXPECT_EQ(found(), "");
+  turn(3.0, allAxes, [](double t) -> Eigen::Vector3d { return -allAxes(t); });
+  EXPECT_TRUE(contains(found(), "reversed"));
+}
+
 TEST_F(ImuContradictionTest, OldTurnsAreForgotten) {
   turn(10.0, allAxes,
        [](double t) -> Eigen::Vector3d { return t < kStart_s + 4.5 ? -allAxes(t) : allAxes(t); });
