@@ -52,6 +52,13 @@ bool sameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo&
          a.roi.y_offset == b.roi.y_offset && a.roi.width == b.roi.width && a.roi.height == b.roi.height;
 }
 
+std::string swappedCameras() {
+  return "left and right images are swapped: most corners of the left image lie further right in the right "
+         "image (negative disparity), which is impossible in a correctly ordered rectified pair; depth and "
+         "odometry are wrong. Exchange the two cameras' device numbers (left_device, right_device), plugs or "
+         "topics";
+}
+
 std::string missingTransform(const std::string& base_frame, const std::string& sensor_frame,
                              bool sensor_is_camera, const std::string& tf_error) {
   const std::string example = sensor_is_camera ? "0 0 0.283 -1.5708 0 -1.5708" : "0 0 0 0 0 0";

@@ -21,6 +21,9 @@ JudgedInfos checkedInfos(const sensor_msgs::Image& left, const sensor_msgs::Imag
 /// Whether the two describe the same camera; stamps do not matter.
 bool sameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b);
 
+/// Message for images of which left is right.
+std::string swappedCameras();
+
 /// Message for a missing transform: its name, tf's own error, and a command that publishes it.
 /// `sensor_is_camera` selects the rotation in the example: that of optical axes or that of the body's axes.
 std::string missingTransform(const std::string& base_frame, const std::string& sensor_frame,

@@ -54,7 +54,8 @@ TEST(Calibrator, CommitSavesTheGeometryOfTheCameras) {
     ros::spinOnce();
     return right.messages.back()->K[0] != 0.0;
   };
-  ASSERT_TRUE(calibration.comesUp(is_committed, 400.0)) << calibration.command().output();
+  // The calibrator ends once it has committed, perhaps before the camera_info is here.
+  ASSERT_TRUE(calibration.comesUp(is_committed, 400.0) || comesTrue(is_committed)) << calibration.command().output();
   std::cout << calibration.command().output();
 
   const std::string folder = "/tmp/ros_home/camera_info/";

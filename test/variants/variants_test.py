@@ -161,6 +161,8 @@ def report(results):
 
 if __name__ == '__main__':
     PROGRAMS = pathlib.Path(sys.argv[1])
+    # The programs look up scenarios and configurations in the package.
+    os.environ['ROS_PACKAGE_PATH'] = str(pathlib.Path(__file__).resolve().parents[2])
     every = (calibration_variants() + image_variants() + stamp_variants() + imu_variants() + rig_variants() +
              layout_variants() + dialect_variants())
     VARIANTS = [v for v in every if len(sys.argv) < 3 or any(name in v.name for name in sys.argv[2:])]

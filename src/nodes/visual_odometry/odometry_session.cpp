@@ -205,11 +205,7 @@ void OdometrySession::checkCameraOrder(SessionOutput& output) {
     camera_order_checked_s_ = time_s;
   }
   if (camera_order_->verdict() != vision::CameraOrderCheck::Verdict::kSwapped) return;
-  output.warnings["camera_order"] =
-      "left and right images are swapped: most corners of the left image lie further right in the right "
-      "image (negative disparity), which is impossible in a correctly ordered rectified pair; depth and "
-      "odometry are wrong. Exchange the two cameras' device numbers (left_device, right_device), plugs or "
-      "topics";
+  output.warnings["camera_order"] = ros_io::swappedCameras();
 }
 
 void OdometrySession::checkImu(SessionOutput& output) {

@@ -9,16 +9,20 @@
 #include "odometry/method/watched_odometry.h"
 #include "ros/imu_checks.h"
 #include "ros/package_files.h"
+#include "ros/setup_checks.h"
 #include "ros/stereo_processing.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/topics.h"
 #include "tools/evaluate/recorded_disparity.h"
 #include "tools/evaluate/relative_covariance.h"
+#include "vision/camera_order.h"
 
 namespace stereo_nav::tools {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kFramesBetweenOrderChecks = 10;
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -87,7 +91,8 @@ class Run {
         T_base_camera_(T_base_camera),
         uncertainty_(T_base_camera),
         imu_problem_(imu.problem),
-        odometry_(config_, processing.calibration(), {T_base_camera.linear(), imu.R_base_imu}) {
+        odometry_(config_, processing.calibration(), {T_base_camera.linear(), imu.R_base_imu}),
+        camera_order_(processing.calibration()) {
     if (disparity_bag && config_.disparityUse() != odometry::DisparityUse::kNone)
       recorded_disparity_.emplace(*disparity_bag);
   }
@@ -106,6 +111,7 @@ class Run {
       record.timing.disparity_ms = millisecondsSince(start);
     }
     feedImu(std::max(pair.left_time_s, pair.right_time_s));
+    if (frames_++ % kFramesBetweenOrderChecks == 0) camera_order_.observe(frame.left, frame.right);
     const auto start = Clock::now();
     const odometry::FrameResult result = odometry_.process(frame);
     record.timing.frame_ms = millisecondsSince(start);
@@ -125,6 +131,9 @@ class Run {
     return record;
   }
 
+  bool camerasAreSwapped() const {
+    return camera_order_.verdict() == vision::CameraOrderCheck::Verdict::kSwapped;
+  }
   /// Why the IMU contradicts the images; empty while it is used, or was not used from the start.
   const std::string& imuContradiction() const { return odometry_.imuProblem(); }
   /// What the frames told of their uncertainty.
@@ -160,6 +169,8 @@ class Run {
   RelativeCovariance uncertainty_;
   std::string imu_problem_;  ///< why it is not used
   odometry::WatchedOdometry odometry_;
+  std::size_t frames_ = 0;
+  vision::CameraOrderCheck camera_order_;
   std::size_t next_imu_ = 0;
   std::optional<RecordedDisparity> recorded_disparity_;
   cv::Mat previous_disparity_;
@@ -217,6 +228,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
     if (repetition == 0) {
       run.input.frames = std::move(frames);
       run.input.relative_covariance = pass.uncertainty();
+      if (pass.camerasAreSwapped()) run.input.notes.push_back(ros_io::swappedCameras());
     } else if (!samePoses(run.input.frames, frames)) {
       throw std::logic_error("two runs on the same recording differ; this is a defect of the odometry");
     }
