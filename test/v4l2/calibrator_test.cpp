@@ -55,7 +55,8 @@ TEST(Calibrator, CommitSavesTheGeometryOfTheCameras) {
     return right.messages.back()->K[0] != 0.0;
   };
   // The calibrator ends once it has committed, perhaps before the camera_info is here.
-  ASSERT_TRUE(calibration.comesUp(is_committed, 400.0) || comesTrue(is_committed)) << calibration.command().output();
+  ASSERT_TRUE(calibration.comesUp(is_committed, 400.0) || comesTrue(is_committed))
+      << calibration.command().output();
   std::cout << calibration.command().output();
 
   const std::string folder = "/tmp/ros_home/camera_info/";
