@@ -26,6 +26,7 @@ constexpr double kContradiction =
 constexpr double kExplained = 0.2;  ///< share that an explanation may leave over
 constexpr double kLargestBias_rad_s = 0.15;  ///< of the rates of a cheap gyroscope
 constexpr double kLeastRate_rad_s = 0.1;     ///< slower turns tell little more than noise
+constexpr double kLeastDegrees = 20.0;       ///< rates in deg/s are 57 times too large, give or take a bias
 constexpr double kLongestDelay_s = 1.0;
 constexpr double kDelayStep_s = 0.005;
 
@@ -86,7 +87,7 @@ ImuContradiction::Comparison ImuContradiction::compare(const RotationHistory& im
   }
   // A constant bias of the rates is no contradiction; attitudes have none.
   const bool has_attitude = !turns_.empty() && imu.attitude(turns_.back().current_s + delay_s);
-  const double most_rad_s = has_attitude ? 0.0 : kLargestBias_rad_s * std::abs(factor);
+  const double most_rad_s = has_attitude ? 0.0 : kLargestBias_rad_s;
   const Eigen::Vector3d bias = (excess / std::max(time_s, 1e-9)).cwiseMin(most_rad_s).cwiseMax(-most_rad_s);
   Comparison comparison;
   for (const Pair& pair : pairs) {
@@ -111,7 +112,8 @@ std::optional<std::string> ImuContradiction::find(const RotationHistory& imu) co
   const std::string seen =
       fmt::format("the images show turns of {:.0f} deg in {} frames, the IMU senses {:.0f} deg",
                   now.seen_rad * kDegPerRad, now.frames, now.sensed_rad * kDegPerRad);
-  if (compare(imu, 1.0 / kDegPerRad, 0.0, unturned).share() < kExplained)
+  if (now.sensed_rad > kLeastDegrees * now.seen_rad &&
+      compare(imu, 1.0 / kDegPerRad, 0.0, unturned).share() < kExplained)
     return seen + ": its rates are in deg/s; have the driver publish rad/s";
   if (compare(imu, -1.0, 0.0, unturned).share() < kExplained)
     return seen +

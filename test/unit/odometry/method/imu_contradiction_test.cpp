@@ -89,7 +89,8 @@ TEST_F(ImuContradictionTest, ARigAtRestTellsNothing) {
 }
 
 TEST_F(ImuContradictionTest, DegreesAreNamed) {
-  turn(2.0, yawOnly, [](double t) -> Eigen::Vector3d { return kDegPerRad * yawOnly(t); });
+  const Eigen::Vector3d bias_deg_s(2.0, -1.0, 3.0);
+  turn(2.0, yawOnly, [&](double t) -> Eigen::Vector3d { return kDegPerRad * yawOnly(t) + bias_deg_s; });
   EXPECT_TRUE(contradiction_.isSuspected(imu_));
   EXPECT_TRUE(contains(found(), "rates are in deg/s"));
 }
