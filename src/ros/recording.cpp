@@ -51,17 +51,15 @@ void checkFinite(const ImuSample& sample, const std::string& topic) {
 
 /// All three stamps of each message.
 void straightenSync(const RecordedClock& clock, std::vector<StereoSync>& sync) {
-  if (clock.jumps() == 0) return;
-  for (ros::Time StereoSync::*own : {&StereoSync::left_stamp, &StereoSync::right_stamp}) {
+  using StampOf = ros::Time& (*)(StereoSync&);
+  for (const StampOf stamp_of : {StampOf([](StereoSync& pair) -> ros::Time& { return pair.header.stamp; }),
+                                 StampOf([](StereoSync& pair) -> ros::Time& { return pair.left_stamp; }),
+                                 StampOf([](StereoSync& pair) -> ros::Time& { return pair.right_stamp; })}) {
     std::vector<ros::Time> stamps;
-    for (const StereoSync& message : sync) stamps.push_back(message.*own);
+    for (StereoSync& pair : sync) stamps.push_back(stamp_of(pair));
     clock.straighten(stamps);
-    for (std::size_t i = 0; i < sync.size(); ++i) sync[i].*own = stamps[i];
+    for (std::size_t i = 0; i < sync.size(); ++i) stamp_of(sync[i]) = stamps[i];
   }
-  std::vector<ros::Time> stamps;
-  for (const StereoSync& message : sync) stamps.push_back(message.header.stamp);
-  clock.straighten(stamps);
-  for (std::size_t i = 0; i < sync.size(); ++i) sync[i].header.stamp = stamps[i];
 }
 
 }  // namespace

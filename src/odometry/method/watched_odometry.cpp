@@ -1,5 +1,6 @@
 #include "odometry/method/watched_odometry.h"
 
+#include <cmath>
 #include <utility>
 
 namespace stereo_nav::odometry {
@@ -7,6 +8,8 @@ namespace {
 
 /// A witness that has found no contradiction for so long is dismissed.
 constexpr double kWitness_s = 8.0;
+/// Between two looks at the turns, which costs more than the rest of the watch.
+constexpr double kComparison_s = 0.5;
 
 bool isTracked(const FrameResult& result) {
   return result.state == State::kTracking;
@@ -29,27 +32,30 @@ void WatchedOdometry::addImu(const ImuSample& sample) {
 }
 
 FrameResult WatchedOdometry::process(const StereoFrame& frame) {
-  if (witness_took_over_) {
-    FrameResult result = witness_->odometry->process(frame);
-    result.T_start_camera = witness_->T_start_first * result.T_start_camera;
-    return result;
-  }
   FrameResult result = odometry_->process(frame);
-  if (imu_.empty()) return result;
+  if (!imu_problem_.empty()) result.T_start_camera = T_start_first_ * result.T_start_camera;
+  if (!imu_problem_.empty() || imu_.empty()) return result;
   const bool has_previous = !previous_.left.empty();
-  if (has_previous && isTracked(result) && previous_result_.state != State::kLost)
+  if (has_previous && isTracked(result) && previous_state_ != State::kLost)
     contradiction_.add(previous_.left_time_s, frame.left_time_s,
                        result.T_previous_current.linear().transpose());
-  if (has_previous && !witness_ && !frame.right.empty() && isSuspicious(result)) startWitness();
+  if (has_previous && !witness_ && !frame.right.empty() && isSuspicious(result, frame.left_time_s))
+    startWitness();
   if (witness_) {
     if (const auto taken_over = askWitness(frame)) return *taken_over;
   }
-  previous_ = frame;
-  previous_.left = frame.left.clone();
-  previous_.right = frame.right.clone();
-  previous_.disparity = frame.disparity.clone();
-  previous_result_ = result;
+  remember(frame, result);
   return result;
+}
+
+void WatchedOdometry::remember(const StereoFrame& frame, const FrameResult& result) {
+  previous_.left_time_s = frame.left_time_s;
+  previous_.right_time_s = frame.right_time_s;
+  previous_.readout_s = frame.readout_s;
+  frame.left.copyTo(previous_.left);
+  frame.right.copyTo(previous_.right);
+  previous_state_ = result.state;
+  T_start_previous_ = result.T_start_camera;
 }
 
 void WatchedOdometry::reset() {
@@ -57,27 +63,35 @@ void WatchedOdometry::reset() {
   *this = WatchedOdometry(config_, calibration_, axes_);
 }
 
-bool WatchedOdometry::isSuspicious(const FrameResult& result) const {
-  return result.state == State::kLost || contradiction_.isSuspected(imu_);
+bool WatchedOdometry::isSuspicious(const FrameResult& result, double time_s) {
+  if (result.state == State::kLost) return true;
+  if (std::abs(time_s - compared_s_) < kComparison_s) return false;
+  compared_s_ = time_s;
+  return contradiction_.isSuspected(imu_);
 }
 
 void WatchedOdometry::startWitness() {
   // The thesis' method is no judge: without IMU it follows whatever moves.
   const OdometryConfig config = config_.method() == Method::kStereo ? config_ : OdometryConfig();
   witness_.emplace(Witness{makeOdometry(config, calibration_, axes_.R_camera_imu()), ImuContradiction(axes_),
-                           previous_result_.T_start_camera, previous_.left_time_s});
-  witness_->odometry->process(previous_);
+                           T_start_previous_, previous_.left_time_s});
+  StereoFrame first = previous_;  // an odometry may keep the images, whose buffers are written again
+  first.left = previous_.left.clone();
+  first.right = previous_.right.clone();
+  witness_->odometry->process(first);
 }
 
 FrameResult WatchedOdometry::takeOver(const StereoFrame& frame, FrameResult seen) {
-  witness_took_over_ = true;
-  if (config_.method() != Method::kStereo) {
-    witness_->odometry = makeOdometry(config_, calibration_, axes_.R_camera_imu());
-    witness_->T_start_first = previous_result_.T_start_camera;
-    witness_->odometry->process(previous_);
-    seen = witness_->odometry->process(frame);
+  if (config_.method() == Method::kStereo) {
+    odometry_ = std::move(witness_->odometry);
+    T_start_first_ = witness_->T_start_first;
+  } else {
+    odometry_ = makeOdometry(config_, calibration_, axes_.R_camera_imu());
+    T_start_first_ = T_start_previous_;
+    seen = odometry_->process(frame);
   }
-  seen.T_start_camera = witness_->T_start_first * seen.T_start_camera;
+  witness_.reset();
+  seen.T_start_camera = T_start_first_ * seen.T_start_camera;
   return seen;
 }
 

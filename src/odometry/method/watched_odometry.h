@@ -35,7 +35,9 @@ class WatchedOdometry : public Odometry {
     double since_s;
   };
 
-  bool isSuspicious(const FrameResult& result) const;
+  /// A lost frame, or turns that disagree, which are looked at now and then.
+  bool isSuspicious(const FrameResult& result, double time_s);
+  void remember(const StereoFrame& frame, const FrameResult& result);
   /// It begins with the frame before, whose pose is still good.
   void startWitness();
   /// Lets the witness see the frame; returns its result where it takes over.
@@ -46,13 +48,15 @@ class WatchedOdometry : public Odometry {
   OdometryConfig config_;
   vision::StereoCalibration calibration_;
   SensorAxes axes_;
-  std::unique_ptr<Odometry> odometry_;
+  std::unique_ptr<Odometry> odometry_;                               ///< the one whose results are handed out
+  Eigen::Isometry3d T_start_first_ = Eigen::Isometry3d::Identity();  ///< pose of its first frame
   RotationHistory imu_;
   ImuContradiction contradiction_;  ///< of odometry_, which uses the IMU
-  StereoFrame previous_;            ///< the frame before, with images of its own
-  FrameResult previous_result_;
+  double compared_s_ = 0.0;         ///< stamp of the frame at which the turns were last looked at
+  StereoFrame previous_;            ///< the frame before, in buffers of its own and without disparity map
+  State previous_state_ = State::kLost;
+  Eigen::Isometry3d T_start_previous_ = Eigen::Isometry3d::Identity();
   std::optional<Witness> witness_;
-  bool witness_took_over_ = false;
   std::string imu_problem_;
 };
 

@@ -21,6 +21,8 @@ void checkValues(const EvaluateOptions& options) {
   const double rolling_shutter_s = options.part.rolling_shutter_s.value_or(0.0);
   if (!(rolling_shutter_s >= 0.0 && rolling_shutter_s <= odometry::kLongestReadout_s))
     throw InputError("--rolling-shutter-ms must be a number of milliseconds from 0 to 200");
+  if (!(options.truth_sigma_m >= 0.0 && options.truth_sigma_deg >= 0.0))
+    throw InputError("--ground-truth-sigma-m and --ground-truth-sigma-deg must be 0 or more");
   if (options.repeat < 1) throw InputError("--repeat must be 1 or more");
 }
 

@@ -210,7 +210,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.truth_sigma_m = options.truth_sigma_m;
   run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
 
-  for (int repetition = 0; repetition < options.repeat; ++repetition) {
+  for (int repetition = 0; repetition < options.repeat;) {
     Run pass(recording, processing, config, options.disparity_from, T_base_camera, imu);
     std::vector<eval::FrameRecord> frames;
     recording.forEachPair([&](const ros_io::RawPair& pair) {
@@ -222,10 +222,9 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
       // Once more by vision alone, from the first frame on.
       imu.problem = "the IMU contradicts the images: " + pass.imuContradiction();
       run.timings.clear();
-      --repetition;
       continue;
     }
-    if (repetition == 0) {
+    if (repetition++ == 0) {
       run.input.frames = std::move(frames);
       run.input.relative_covariance = pass.uncertainty();
       if (pass.camerasAreSwapped()) run.input.notes.push_back(ros_io::swappedCameras());
