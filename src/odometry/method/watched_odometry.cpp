@@ -15,6 +15,12 @@ bool isTracked(const FrameResult& result) {
   return result.state == State::kTracking;
 }
 
+/// The image itself where it holds its memory; a copy where the memory is somebody else's, such as a
+/// message's.
+cv::Mat kept(const cv::Mat& image) {
+  return image.u != nullptr ? image : image.clone();
+}
+
 }  // namespace
 
 WatchedOdometry::WatchedOdometry(const OdometryConfig& config, const vision::StereoCalibration& calibration,
@@ -52,8 +58,8 @@ void WatchedOdometry::remember(const StereoFrame& frame, const FrameResult& resu
   previous_.left_time_s = frame.left_time_s;
   previous_.right_time_s = frame.right_time_s;
   previous_.readout_s = frame.readout_s;
-  frame.left.copyTo(previous_.left);
-  frame.right.copyTo(previous_.right);
+  previous_.left = kept(frame.left);
+  previous_.right = kept(frame.right);
   previous_state_ = result.state;
   T_start_previous_ = result.T_start_camera;
 }
@@ -75,10 +81,7 @@ void WatchedOdometry::startWitness() {
   const OdometryConfig config = config_.method() == Method::kStereo ? config_ : OdometryConfig();
   witness_.emplace(Witness{makeOdometry(config, calibration_, axes_.R_camera_imu()), ImuContradiction(axes_),
                            T_start_previous_, previous_.left_time_s});
-  StereoFrame first = previous_;  // an odometry may keep the images, whose buffers are written again
-  first.left = previous_.left.clone();
-  first.right = previous_.right.clone();
-  witness_->odometry->process(first);
+  witness_->odometry->process(previous_);
 }
 
 FrameResult WatchedOdometry::takeOver(const StereoFrame& frame, FrameResult seen) {

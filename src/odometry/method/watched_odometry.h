@@ -53,7 +53,7 @@ class WatchedOdometry : public Odometry {
   RotationHistory imu_;
   ImuContradiction contradiction_;  ///< of odometry_, which uses the IMU
   double compared_s_ = 0.0;         ///< stamp of the frame at which the turns were last looked at
-  StereoFrame previous_;            ///< the frame before, in buffers of its own and without disparity map
+  StereoFrame previous_;            ///< the frame before, without disparity map
   State previous_state_ = State::kLost;
   Eigen::Isometry3d T_start_previous_ = Eigen::Isometry3d::Identity();
   std::optional<Witness> witness_;

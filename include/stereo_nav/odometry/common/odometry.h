@@ -17,6 +17,7 @@ namespace stereo_nav::odometry {
 constexpr double kLongestReadout_s = 0.2;  ///< no rolling shutter takes longer
 
 /// A rectified stereo pair. Left and right carry their own times: two free-running cameras never agree.
+/// Images that hold their memory may be kept until the next frame: they are not to be written to.
 struct StereoFrame {
   double left_time_s = 0.0;   ///< when the left image was taken
   double right_time_s = 0.0;  ///< when the right image was taken
