@@ -32,7 +32,7 @@ cv::Mat decode(const sensor_msgs::CompressedImage& image) {
 
 /// compressed_image_transport writes "ENCODING; CODEC compressed ENCODING"; drivers write "jpeg".
 std::string encodingOf(const sensor_msgs::CompressedImage& image, const cv::Mat& grey) {
-  const std::string original = image.format.substr(0, image.format.find(';'));
+  std::string original = image.format.substr(0, image.format.find(';'));
   if (image_enc::isBayer(original) && image_enc::bitDepth(original) == 8 * static_cast<int>(grey.elemSize()))
     return original;
   return grey.depth() == CV_8U ? image_enc::MONO8 : image_enc::MONO16;
