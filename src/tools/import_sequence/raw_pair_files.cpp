@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "ros/calibration_file.h"
 #include "stereo_nav/core/input_error.h"
@@ -63,28 +65,34 @@ RawPair readKalibr(const std::string& path) {
   return pair;
 }
 
-/// Matrix of an OpenCV file, as doubles, with `count` elements or, where that is 0, as many as it has.
-std::vector<double> readMatrix(const cv::FileStorage& file, const std::string& path, const std::string& name,
+/// Matrix of an OpenCV file with `count` elements or, where that is 0, as many as it has.
+std::vector<double> readMatrix(const YAML::Node& file, const std::string& path, const std::string& name,
                                std::size_t count) {
-  cv::Mat matrix, values;
+  std::vector<double> values;
   try {
-    if (file[name].isMap()) file[name] >> matrix;
-  } catch (const cv::Exception&) {
-    matrix.release();  // sizes that no matrix has, said below
+    const YAML::Node matrix = file[name];
+    values = matrix["data"].as<std::vector<double>>();
+    if (matrix["rows"].as<double>() * matrix["cols"].as<double>() != static_cast<double>(values.size()))
+      values.clear();
+  } catch (const YAML::Exception&) {
+    values.clear();
   }
-  if (!matrix.empty()) matrix.convertTo(values, CV_64F);
-  std::vector<double> result;
-  if (!values.empty()) result.assign(values.begin<double>(), values.end<double>());
-  const bool finite = std::all_of(result.begin(), result.end(), [](double v) { return std::isfinite(v); });
-  if (finite && !result.empty() && (count == 0 || result.size() == count)) return result;
+  const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  if (finite && !values.empty() && (count == 0 || values.size() == count)) return values;
   throw InputError(path + ": " + name + " is missing or has not the size that stereo_calib writes");
 }
 
-cv::FileStorage openStorage(const std::string& path) {
+/// A file of cv::FileStorage. Its own reader is not for files that may be damaged: some end it by an
+/// assertion, or never.
+YAML::Node readOpenCvFile(const std::string& path) {
+  std::ifstream file(path);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  // The first line, %YAML:1.0, is none of YAML's.
+  if (text.compare(0, 5, "%YAML") == 0) text.erase(0, text.find('\n'));
   try {
-    cv::FileStorage file(path, cv::FileStorage::READ);
-    if (file.isOpened()) return file;
-  } catch (const cv::Exception&) {
+    const YAML::Node node = YAML::Load(text);
+    if (node.IsMap()) return node;
+  } catch (const YAML::Exception&) {
     // said below
   }
   throw InputError(path + ": cannot be read as a file of OpenCV (%YAML:1.0)");
@@ -94,8 +102,8 @@ RawPair readOpenCv(const std::string& intrinsics_path, const std::string& extrin
   if (!fs::exists(extrinsics_path)) {
     throw InputError(extrinsics_path + ": does not exist; stereo_calib writes it beside " + intrinsics_path);
   }
-  const cv::FileStorage intrinsics = openStorage(intrinsics_path);
-  const cv::FileStorage extrinsics = openStorage(extrinsics_path);
+  const YAML::Node intrinsics = readOpenCvFile(intrinsics_path);
+  const YAML::Node extrinsics = readOpenCvFile(extrinsics_path);
   RawPair pair;
   pair.source = extrinsics_path;
   pair.left.K = cv::Matx33d(readMatrix(intrinsics, intrinsics_path, "M1", 9).data());
