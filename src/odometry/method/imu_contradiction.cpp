@@ -44,8 +44,14 @@ bool ImuContradiction::Comparison::contradicts() const {
 void ImuContradiction::add(double previous_s, double current_s, const Eigen::Matrix3d& R_current_previous) {
   if (!turns_.empty() && previous_s < turns_.back().previous_s) turns_.clear();
   if (current_s - previous_s > kLongestGap_s) return;
-  turns_.push_back({previous_s, current_s, -logRotation(R_current_previous)});
+  turns_.push_back({previous_s, current_s, -logRotation(R_current_previous), std::nullopt});
   while (turns_.front().previous_s < current_s - kWindow_s) turns_.pop_front();
+}
+
+void ImuContradiction::lookUp(const RotationHistory& imu) {
+  for (auto turn = turns_.rbegin(); turn != turns_.rend() && !turn->sensed; ++turn) {
+    turn->sensed = sensed(imu, *turn, 0.0);
+  }
 }
 
 std::optional<Eigen::Vector3d> ImuContradiction::sensed(const RotationHistory& imu, const Turn& turn,
@@ -79,7 +85,7 @@ ImuContradiction::Comparison ImuContradiction::compare(const RotationHistory& im
   Eigen::Vector3d excess = Eigen::Vector3d::Zero();
   double time_s = 0.0;
   for (const Turn& turn : turns_) {
-    const auto turned = sensed(imu, turn, delay_s);
+    const auto turned = delay_s == 0.0 ? turn.sensed : sensed(imu, turn, delay_s);
     if (!turned) continue;
     pairs.push_back({turn.seen, factor * (R * *turned), turn.current_s - turn.previous_s});
     excess += pairs.back().sensed - turn.seen;
@@ -101,11 +107,13 @@ ImuContradiction::Comparison ImuContradiction::compare(const RotationHistory& im
   return comparison;
 }
 
-bool ImuContradiction::isSuspected(const RotationHistory& imu) const {
+bool ImuContradiction::isSuspected(const RotationHistory& imu) {
+  lookUp(imu);
   return compare(imu, 1.0, 0.0, Eigen::Matrix3d::Identity()).contradicts();
 }
 
-std::optional<std::string> ImuContradiction::find(const RotationHistory& imu) const {
+std::optional<std::string> ImuContradiction::find(const RotationHistory& imu) {
+  lookUp(imu);
   const Eigen::Matrix3d unturned = Eigen::Matrix3d::Identity();
   const Comparison now = compare(imu, 1.0, 0.0, unturned);
   if (!now.contradicts() || now.seen_rad < kLeastTurn_rad) return std::nullopt;
@@ -153,7 +161,7 @@ std::optional<std::string> ImuContradiction::explainedByDelay(const RotationHist
 std::optional<std::string> ImuContradiction::explainedByAxes(const RotationHistory& imu) const {
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
   for (const Turn& turn : turns_) {
-    if (const auto turned = sensed(imu, turn, 0.0)) moment += turn.seen * turned->transpose();
+    if (turn.sensed) moment += turn.seen * turn.sensed->transpose();
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();

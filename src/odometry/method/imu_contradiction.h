@@ -32,15 +32,16 @@ class ImuContradiction {
 
   /// What is wrong, the likely cause and the remedy; nothing while the two agree, or too little has been
   /// turned. `imu` holds the samples around the frames.
-  std::optional<std::string> find(const RotationHistory& imu) const;
+  std::optional<std::string> find(const RotationHistory& imu);
   /// Whether the turns are too different to go on without a closer look.
-  bool isSuspected(const RotationHistory& imu) const;
+  bool isSuspected(const RotationHistory& imu);
 
  private:
   /// Turns of the camera between two frames, as rotation vectors in its axes, rad.
   struct Turn {
     double previous_s, current_s;
     Eigen::Vector3d seen;
+    std::optional<Eigen::Vector3d> sensed;  ///< nothing until the IMU's samples cover it
   };
   struct Comparison {
     double seen_rad = 0.0, sensed_rad = 0.0, difference_rad = 0.0;  ///< sums of the lengths
@@ -50,6 +51,8 @@ class ImuContradiction {
     bool contradicts() const;
   };
 
+  /// Each turn is looked up once: that costs more than the rest of the watch.
+  void lookUp(const RotationHistory& imu);
   std::optional<Eigen::Vector3d> sensed(const RotationHistory& imu, const Turn& turn, double delay_s) const;
   /// With the sensed turns multiplied by `factor` and rotated by `R`, taken `delay_s` later, freed from a
   /// constant bias.

@@ -8,8 +8,6 @@ namespace {
 
 /// A witness that has found no contradiction for so long is dismissed.
 constexpr double kWitness_s = 8.0;
-/// Between two looks at the turns, which costs more than the rest of the watch.
-constexpr double kComparison_s = 0.5;
 
 bool isTracked(const FrameResult& result) {
   return result.state == State::kTracking;
@@ -45,8 +43,8 @@ FrameResult WatchedOdometry::process(const StereoFrame& frame) {
   if (has_previous && isTracked(result) && previous_state_ != State::kLost)
     contradiction_.add(previous_.left_time_s, frame.left_time_s,
                        result.T_previous_current.linear().transpose());
-  if (has_previous && !witness_ && !frame.right.empty() && isSuspicious(result, frame.left_time_s))
-    startWitness();
+  const bool is_suspicious = result.state == State::kLost || contradiction_.isSuspected(imu_);
+  if (has_previous && !witness_ && !frame.right.empty() && is_suspicious) startWitness();
   if (witness_) {
     if (const auto taken_over = askWitness(frame)) return *taken_over;
   }
@@ -67,13 +65,6 @@ void WatchedOdometry::remember(const StereoFrame& frame, const FrameResult& resu
 void WatchedOdometry::reset() {
   // An odometry made anew has nothing that could survive.
   *this = WatchedOdometry(config_, calibration_, axes_);
-}
-
-bool WatchedOdometry::isSuspicious(const FrameResult& result, double time_s) {
-  if (result.state == State::kLost) return true;
-  if (std::abs(time_s - compared_s_) < kComparison_s) return false;
-  compared_s_ = time_s;
-  return contradiction_.isSuspected(imu_);
 }
 
 void WatchedOdometry::startWitness() {

@@ -35,8 +35,6 @@ class WatchedOdometry : public Odometry {
     double since_s;
   };
 
-  /// A lost frame, or turns that disagree, which are looked at now and then.
-  bool isSuspicious(const FrameResult& result, double time_s);
   void remember(const StereoFrame& frame, const FrameResult& result);
   /// It begins with the frame before, whose pose is still good.
   void startWitness();
@@ -52,7 +50,6 @@ class WatchedOdometry : public Odometry {
   Eigen::Isometry3d T_start_first_ = Eigen::Isometry3d::Identity();  ///< pose of its first frame
   RotationHistory imu_;
   ImuContradiction contradiction_;  ///< of odometry_, which uses the IMU
-  double compared_s_ = 0.0;         ///< stamp of the frame at which the turns were last looked at
   StereoFrame previous_;            ///< the frame before, without disparity map
   State previous_state_ = State::kLost;
   Eigen::Isometry3d T_start_previous_ = Eigen::Isometry3d::Identity();

@@ -60,7 +60,7 @@ class ImuContradictionTest : public testing::Test {
         expRotation(noise) * R_camera_imu * R_previous_current.transpose() * R_camera_imu.transpose());
   }
 
-  std::string found() const { return contradiction_.find(imu_).value_or(""); }
+  std::string found() { return contradiction_.find(imu_).value_or(""); }
 
   std::mt19937 random_{1};
   std::normal_distribution<double> normal_;
