@@ -6,9 +6,6 @@ REASONS = {
         'right stamps 20 ms late',
         'right stamps 0.1 s late',
     ],
-    'an orientation that stands still from mid-drive holds back the turn of the images before it is suspected': [
-        'IMU stuck from mid-drive',
-    ],
 }
 
 EXPECTED_FAILURES = {name: reason for reason, names in REASONS.items() for name in names}

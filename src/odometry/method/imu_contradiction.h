@@ -45,6 +45,7 @@ class ImuContradiction {
   };
   struct Comparison {
     double seen_rad = 0.0, sensed_rad = 0.0, difference_rad = 0.0;  ///< sums of the lengths
+    double unsensed_rad = 0.0;                                      ///< seen while the IMU sensed nothing
     int frames = 0;
 
     double share() const;  ///< the difference as a share of what was turned

@@ -113,6 +113,19 @@ TEST_F(ImuContradictionTest, AnOrientationThatStaysTheSameIsNamed) {
   EXPECT_TRUE(contains(contradiction_.find(dead).value_or(""), "stay the same while it turns"));
 }
 
+TEST_F(ImuContradictionTest, AnOrientationThatJumpsAndThenStaysTheSameIsNamed) {
+  turn(2.0, yawOnly, yawOnly);
+  RotationHistory stopped;
+  for (double t = kStart_s - 1.0; t < kStart_s + 3.0; t += kSample_s) {
+    ImuSample sample;
+    sample.time_s = t;
+    const double yaw_rad = t < kStart_s + 0.2 ? 0.4 : 0.0;
+    sample.q_world_imu = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ());
+    stopped.add(sample);
+  }
+  EXPECT_TRUE(contains(contradiction_.find(stopped).value_or(""), "stay the same while it turns"));
+}
+
 TEST_F(ImuContradictionTest, ExchangedAxesGiveTheLineForTheRigFile) {
   // The IMU is turned by 90 degrees to the left, and tf does not know.
   const Eigen::Matrix3d R_base_imu = RollPitchYaw::fromDegrees(0.0, 0.0, 90.0).rotation();
