@@ -13,6 +13,7 @@
 #include <set>
 #include <sstream>
 
+#include "ros/bag_structure.h"
 #include "ros/judged_infos.h"
 #include "ros/recorded_depth.h"
 #include "ros/recorded_image.h"
@@ -66,7 +67,7 @@ void straightenSync(const RecordedClock& clock, std::vector<StereoSync>& sync) {
 
 Recording::Recording(const std::string& path, const RecordingOptions& options) : path_(path) {
   try {
-    bag_.open(path, rosbag::bagmode::Read);
+    openBag(bag_, path);
     findTopics(options);
     readMessages();
     const vision::BitDepth depth = recordedDepth(bag_, topics_.left, topics_.right);
@@ -166,17 +167,18 @@ void Recording::readMessages() {
   left_info_ = firstInfo(topics_.left_info);
   right_info_ = firstInfo(topics_.right_info);
   std::vector<ReceivedStamp> left_images;
-  rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
-  for (const rosbag::MessageInstance& message : view) {
-    const auto stamp = recordedImageStamp(message);
-    if (!stamp) {
-      throw InputError(path_ + ": " + message.getTopic() + " is " + message.getDataType() +
-                       ", expected sensor_msgs/Image or sensor_msgs/CompressedImage");
-    }
-    const bool is_left = message.getTopic() == topics_.left;
-    (is_left ? left_stamps_ : right_stamps_).push_back(*stamp);
-    if (is_left) left_images.push_back({*stamp, message.getTime()});
-  }
+  order_ = RecordedOrder(bag_, topics_.left);
+  order_.forEach(bag_, {topics_.left, topics_.right},
+                 [&](const rosbag::MessageInstance& message, const ros::Time& received) {
+                   const auto stamp = recordedImageStamp(message);
+                   if (!stamp) {
+                     throw InputError(path_ + ": " + message.getTopic() + " is " + message.getDataType() +
+                                      ", expected sensor_msgs/Image or sensor_msgs/CompressedImage");
+                   }
+                   const bool is_left = message.getTopic() == topics_.left;
+                   (is_left ? left_stamps_ : right_stamps_).push_back(*stamp);
+                   if (is_left) left_images.push_back({*stamp, received});
+                 });
   if (left_stamps_.empty() || right_stamps_.empty()) {
     throw InputError(path_ + ": " + std::to_string(left_stamps_.size()) + " left and " +
                      std::to_string(right_stamps_.size()) + " right images; both cameras are needed");
@@ -186,25 +188,25 @@ void Recording::readMessages() {
   clock_.straighten(right_stamps_);
   left_in_order_ = left_stamps_;
   right_in_order_ = right_stamps_;
-  if (clock_.jumps() > 0) {
-    notes_.push_back(
-        "the clock of the recorded computer was set back (times: " + std::to_string(clock_.jumps()) +
-        "); what follows is taken in the order of recording, by the times of receipt");
+  if (stretches() > 1) {
+    notes_.push_back("the clock of the recorded computer was set back (times: " +
+                     std::to_string(stretches() - 1) + "); what follows is taken in the order of recording" +
+                     (order_.setBacks() > 0 ? ", its first image as one interval after the last one before"
+                                            : ", by the times of receipt"));
   }
 }
 
 void Recording::readImu() {
   if (!topics_.imu && !topics_.imu_quat) return;
   const std::string topic = topics_.imu ? *topics_.imu : *topics_.imu_quat;
-  rosbag::View view(bag_, rosbag::TopicQuery(topic));
-  for (const rosbag::MessageInstance& message : view) {
+  order_.forEach(bag_, {topic}, [&](const rosbag::MessageInstance& message, const ros::Time& received) {
     ImuSample sample;
     if (const auto imu = message.instantiate<sensor_msgs::Imu>()) {
       sample = toImuSample(*imu);
       imu_frame_ = withoutSlash(imu->header.frame_id);
     } else if (const auto q = message.instantiate<geometry_msgs::Quaternion>()) {
       // The thesis' topic has no header; the time of arrival is the only stamp.
-      sample.time_s = message.getTime().toSec();
+      sample.time_s = received.toSec();
       sample.q_world_imu = Eigen::Quaterniond(q->w, q->x, q->y, q->z);
     } else {
       throw InputError(path_ + ": " + topic + " is " + message.getDataType() +
@@ -212,7 +214,7 @@ void Recording::readImu() {
     }
     checkFinite(sample, topic);
     imu_.push_back(sample);
-  }
+  });
   clock_.straighten(imu_, [](ImuSample& sample) -> double& { return sample.time_s; });
   std::stable_sort(imu_.begin(), imu_.end(),
                    [](const ImuSample& a, const ImuSample& b) { return a.time_s < b.time_s; });
@@ -221,8 +223,7 @@ void Recording::readImu() {
 void Recording::pairImages(const RecordingOptions& options) {
   std::vector<StereoSync> sync;
   if (topics_.sync) {
-    rosbag::View view(bag_, rosbag::TopicQuery(*topics_.sync));
-    for (const rosbag::MessageInstance& message : view) {
+    order_.forEach(bag_, {*topics_.sync}, [&](const rosbag::MessageInstance& message, const ros::Time&) {
       const auto pair = message.instantiate<StereoSync>();
       if (!pair) {
         throw InputError(
@@ -233,7 +234,7 @@ void Recording::pairImages(const RecordingOptions& options) {
             "'\"): the images are then paired by their own stamps, which is right for synchronised cameras");
       }
       sync.push_back(*pair);
-    }
+    });
   }
   straightenSync(clock_, sync);
   const std::size_t images = left_stamps_.size() + right_stamps_.size();
@@ -289,8 +290,7 @@ Recording::GroundTruth Recording::groundTruth(const std::string& topic, bool req
                      topicList());
   }
   GroundTruth truth;
-  rosbag::View view(bag_, rosbag::TopicQuery(*found));
-  for (const rosbag::MessageInstance& message : view) {
+  order_.forEach(bag_, {*found}, [&](const rosbag::MessageInstance& message, const ros::Time&) {
     if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) {
       truth.trajectory.push_back(toStampedPose(odometry->header.stamp, odometry->pose.pose));
       truth.body_frame = withoutSlash(odometry->child_frame_id);
@@ -304,7 +304,7 @@ Recording::GroundTruth Recording::groundTruth(const std::string& topic, bool req
           path_ + ": ground truth topic " + *found + " is " + message.getDataType() +
           ", expected nav_msgs/Odometry, geometry_msgs/PoseStamped or geometry_msgs/TransformStamped");
     }
-  }
+  });
   clock_.straighten(truth.trajectory, [](StampedPose& pose) -> double& { return pose.time_s; });
   return truth;
 }
@@ -323,22 +323,23 @@ void Recording::forEachPair(const std::function<void(const RawPair&)>& handle) c
   std::size_t left_images = 0;
   std::size_t right_images = 0;
   const vision::BitDepth depth{mono16_bits_, mono16_swapped_};
-  rosbag::View view(bag_, rosbag::TopicQuery(std::vector<std::string>{topics_.left, topics_.right}));
-  for (const rosbag::MessageInstance& message : view) {
-    const bool is_left = message.getTopic() == topics_.left;
-    auto& pair_of = is_left ? pair_of_left : pair_of_right;
-    const auto pair = pair_of.find(is_left ? left_in_order_[left_images++] : right_in_order_[right_images++]);
-    if (pair == pair_of.end()) continue;
-    (is_left ? waiting_left : waiting_right)[pair->second] = recordedImage(message);
-    pair_of.erase(pair);  // a second image with this stamp is left out
-    while (waiting_left.count(next) != 0 && waiting_right.count(next) != 0) {
-      handle({pairs_[next].left_time_s, pairs_[next].right_time_s, pairs_[next].rolling_shutter_s,
-              toMono8(waiting_left[next], depth), toMono8(waiting_right[next], depth)});
-      waiting_left.erase(next);
-      waiting_right.erase(next);
-      ++next;
-    }
-  }
+  order_.forEach(
+      bag_, {topics_.left, topics_.right}, [&](const rosbag::MessageInstance& message, const ros::Time&) {
+        const bool is_left = message.getTopic() == topics_.left;
+        auto& pair_of = is_left ? pair_of_left : pair_of_right;
+        const auto pair =
+            pair_of.find(is_left ? left_in_order_[left_images++] : right_in_order_[right_images++]);
+        if (pair == pair_of.end()) return;
+        (is_left ? waiting_left : waiting_right)[pair->second] = recordedImage(message);
+        pair_of.erase(pair);  // a second image with this stamp is left out
+        while (waiting_left.count(next) != 0 && waiting_right.count(next) != 0) {
+          handle({pairs_[next].left_time_s, pairs_[next].right_time_s, pairs_[next].rolling_shutter_s,
+                  toMono8(waiting_left[next], depth), toMono8(waiting_right[next], depth)});
+          waiting_left.erase(next);
+          waiting_right.erase(next);
+          ++next;
+        }
+      });
 }
 
 }  // namespace stereo_nav::ros_io

@@ -5,6 +5,7 @@
 #include <tf2/buffer_core.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -17,6 +18,7 @@
 #include "stereo_nav/ros/conversions.h"
 #include "stereo_nav/ros/pairing.h"
 #include "stereo_nav/ros/recorded_clock.h"
+#include "stereo_nav/ros/recorded_order.h"
 
 namespace stereo_nav::ros_io {
 
@@ -65,7 +67,7 @@ class Recording {
   const std::optional<std::string>& imuFrame() const { return imu_frame_; }
   /// Number of stretches between which the host's clock was set back. All times that are handed out lie on
   /// one line of time: those after a jump are moved to where they would lie without it.
-  std::size_t stretches() const { return clock_.jumps() + 1; }
+  std::size_t stretches() const { return std::max(clock_.jumps(), order_.setBacks()) + 1; }
   /// What was added to the recorded stamp of an image.
   double clockOffset_s(double time_s) const { return clock_.offset_s(time_s); }
   /// Stamp of the first left image.
@@ -121,6 +123,7 @@ class Recording {
   std::vector<ros::Time> right_stamps_;
   std::vector<StampPair> pairs_;
   std::size_t unpaired_images_ = 0;
+  RecordedOrder order_;
   RecordedClock clock_;
   std::vector<ros::Time> left_in_order_;   ///< stamps of all left images in the order of recording
   std::vector<ros::Time> right_in_order_;  ///< likewise

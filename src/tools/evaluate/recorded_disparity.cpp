@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "ros/bag_structure.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/recording.h"
 
@@ -17,7 +18,7 @@ constexpr double kSameStamp_s = 1e-6;
 
 RecordedDisparity::RecordedDisparity(const std::string& path) : path_(path) {
   try {
-    bag_.open(path, rosbag::bagmode::Read);
+    ros_io::openBag(bag_, path);
     view_ = std::make_unique<rosbag::View>(
         bag_, rosbag::TopicQuery(std::vector<std::string>{"camera/disparity", "/camera/disparity"}));
   } catch (const rosbag::BagException& error) {

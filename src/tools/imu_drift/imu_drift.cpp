@@ -10,6 +10,7 @@
 #include "core/angles.h"
 #include "core/atomic_file.h"
 #include "eval/gnuplot.h"
+#include "ros/bag_structure.h"
 #include "sensors/imu/allan_deviation.h"
 #include "sensors/imu/drift.h"
 #include "sensors/imu/imu_estimator.h"
@@ -62,7 +63,8 @@ RestRecording recordFromPort(const Options& options, imu::ImuDeviceStatus& statu
 
 RestRecording recordFromBag(const Options& options) {
   RestRecording recording;
-  rosbag::Bag bag(options.bag, rosbag::bagmode::Read);
+  rosbag::Bag bag;
+  ros_io::openBag(bag, options.bag);
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(options.topic))) {
     const auto message = instance.instantiate<sensor_msgs::Imu>();
     if (!message) continue;

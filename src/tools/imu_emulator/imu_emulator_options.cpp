@@ -8,6 +8,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "ros/bag_structure.h"
 #include "tools/common/command_line.h"
 
 namespace stereo_nav::tools {
@@ -18,7 +19,8 @@ namespace po = boost::program_options;
 /// Attitudes of an Imu topic; positions stay zero.
 Trajectory readImuBag(const std::string& path, const std::string& topic) {
   Trajectory trajectory;
-  rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::Bag bag;
+  ros_io::openBag(bag, path);
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
     const auto message = instance.instantiate<sensor_msgs::Imu>();
     if (!message || message->orientation_covariance[0] == -1.0) continue;
