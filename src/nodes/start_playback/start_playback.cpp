@@ -50,6 +50,7 @@ struct Graph {
 /// Topics that must be connected before playback.
 struct Wanted {
   std::vector<std::string> topics;         ///< with a publisher and a subscriber
+  std::vector<std::string> published;      ///< with a publisher
   std::vector<std::string> if_subscribed;  ///< with a publisher, if anybody subscribes
 };
 
@@ -63,6 +64,9 @@ Graph lookAt(const Wanted& wanted) {
   for (const auto& topic : wanted.topics) {
     if (publishers[topic].empty()) graph.missing.insert("a publisher of " + topic);
     if (subscribers[topic].empty()) graph.missing.insert("a subscriber of " + topic);
+  }
+  for (const auto& topic : wanted.published) {
+    if (publishers[topic].empty()) graph.missing.insert("a publisher of " + topic);
   }
   for (const auto& topic : wanted.if_subscribed) {
     if (!subscribers[topic].empty() && publishers[topic].empty())
@@ -110,7 +114,7 @@ std::vector<std::string> topicsOf(const char* parameter) {
 int run() {
   ros::NodeHandle handle;
   ros::NodeHandle private_handle("~");
-  const Wanted wanted{topicsOf("topics"), topicsOf("if_subscribed")};
+  const Wanted wanted{topicsOf("topics"), topicsOf("published"), topicsOf("if_subscribed")};
   const double timeout_s = private_handle.param("timeout_s", 30.0);
   const auto player = private_handle.param<std::string>("player", "player");
 

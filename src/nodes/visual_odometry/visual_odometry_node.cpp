@@ -73,11 +73,11 @@ VisualOdometryNode::VisualOdometryNode(const ros::NodeHandle& handle, const ros:
       health_(handle_, private_handle_, name),
       inbox_(params_.waiting),
       session_(params_, readOdometryConfig(private_handle_), lookupIn(tf_buffer_)),
-      publisher_(handle_, params_),
-      disparity_view_(handle_),
       inputs_(handle_, private_handle_, params_,
               synchroniserParams(params_.synchronisation, readOdometryConfig(private_handle_)), inbox_,
-              health_) {
+              health_),
+      publisher_(handle_, params_),
+      disparity_view_(handle_) {
   worker_ = std::thread(&VisualOdometryNode::work, this);
   reset_service_ = handle_.advertiseService("vo/reset", &VisualOdometryNode::handleReset, this);
   set_pose_service_ = handle_.advertiseService("vo/set_pose", &VisualOdometryNode::handleSetPose, this);

@@ -51,10 +51,11 @@ class VisualOdometryNode {
   ros_io::Inbox inbox_;
   std::mutex session_mutex_;
   OdometrySession session_;
-  OdometryPublisher publisher_;  ///< guarded by session_mutex_
 
-  DisparityView disparity_view_;
   OdometryInputs inputs_;
+  /// Begun after the inputs: who sees `vo/status` advertised knows that the node listens to everything.
+  OdometryPublisher publisher_;  ///< guarded by session_mutex_
+  DisparityView disparity_view_;
   ros::ServiceServer reset_service_, set_pose_service_;
   std::unique_ptr<ros_io::LiveParameters<VisualOdometryParams>> live_parameters_;
   ros::WallTimer timer_;
