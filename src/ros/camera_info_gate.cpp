@@ -7,7 +7,7 @@
 namespace stereo_nav::ros_io {
 namespace {
 
-constexpr std::uint32_t kInfoQueue = 20;
+constexpr std::uint32_t kQueue = 20;
 constexpr std::array<InfoGate::Side, 2> kBothSides = {InfoGate::kLeft, InfoGate::kRight};
 constexpr std::array<const char*, 2> kInfoTopics = {topics::kLeftInfo, topics::kRightInfo};
 constexpr std::array<const char*, 2> kCheckedTopics = {topics::kLeftCheckedInfo, topics::kRightCheckedInfo};
@@ -18,13 +18,13 @@ constexpr std::array<const char*, 2> kImageTopics = {topics::kLeftImage, topics:
 CameraInfoGate::CameraInfoGate(const ros::NodeHandle& handle, std::string name)
     : handle_(handle), name_(std::move(name)) {
   const ros::SubscriberStatusCallback connected = [this](const ros::SingleSubscriberPublisher&) {
-    askForSizes();
+    askForImages();
   };
   for (const InfoGate::Side side : kBothSides) {
     publishers_[side] =
-        handle_.advertise<sensor_msgs::CameraInfo>(kCheckedTopics[side], kInfoQueue, connected, connected);
+        handle_.advertise<sensor_msgs::CameraInfo>(kCheckedTopics[side], kQueue, connected, connected);
     infos_[side] = handle_.subscribe<sensor_msgs::CameraInfo>(
-        kInfoTopics[side], kInfoQueue,
+        kInfoTopics[side], kQueue,
         [this, side](const sensor_msgs::CameraInfoConstPtr& info) { handleInfo(side, info); });
   }
 }
@@ -35,25 +35,36 @@ bool CameraInfoGate::anybodyWaits() const {
 
 void CameraInfoGate::handleInfo(InfoGate::Side side, const sensor_msgs::CameraInfoConstPtr& info) {
   publish(gate_.addInfo(side, info));
-  askForSizes();
+  askForImages();
   report();
 }
 
 void CameraInfoGate::handleImage(InfoGate::Side side, const sensor_msgs::ImageConstPtr& image) {
-  if (!gate_.needsImageSize(side)) return;
-  publish(
-      gate_.addImageSize(side, cv::Size(static_cast<int>(image->width), static_cast<int>(image->height))));
-  askForSizes();
+  if (!gate_.needsImages(side)) return;
+  publish(gate_.addImage(side, image->header,
+                         cv::Size(static_cast<int>(image->width), static_cast<int>(image->height)),
+                         ros::WallTime::now().toSec()));
+  askForImages();
   report();
 }
 
 /// Images flow through this process only where somebody rectifies them.
-void CameraInfoGate::askForSizes() {
+void CameraInfoGate::askForImages() {
+  constexpr double kPeriod_s = 0.05;
+  const bool any_wanted =
+      anybodyWaits() && (gate_.needsImages(InfoGate::kLeft) || gate_.needsImages(InfoGate::kRight));
+  if (any_wanted && !overdue_) {
+    overdue_ = handle_.createWallTimer(ros::WallDuration(kPeriod_s), [this](const ros::WallTimerEvent&) {
+      publish(gate_.passOnOverdue(ros::WallTime::now().toSec()));
+    });
+  } else if (!any_wanted && overdue_) {
+    overdue_ = ros::WallTimer();
+  }
   for (const InfoGate::Side side : kBothSides) {
-    const bool wanted = gate_.needsImageSize(side) && anybodyWaits();
+    const bool wanted = gate_.needsImages(side) && anybodyWaits();
     if (wanted && !images_[side]) {
       images_[side] = handle_.subscribe<sensor_msgs::Image>(
-          kImageTopics[side], 1,
+          kImageTopics[side], kQueue,
           [this, side](const sensor_msgs::ImageConstPtr& image) { handleImage(side, image); });
     } else if (!wanted && images_[side]) {
       images_[side].shutdown();

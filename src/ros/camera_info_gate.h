@@ -13,7 +13,7 @@ namespace stereo_nav::ros_io {
 
 /// The InfoGate between `camera/{left,right}/camera_info` and `camera/{left,right}/checked_info`, which the
 /// image nodelets subscribe in its place. A refused pair is said once, and again every minute, while anybody
-/// waits for it. A raw image is only subscribed until its size is known.
+/// waits for it. Raw images are only subscribed while the gate wants them.
 class CameraInfoGate {
  public:
   /// `name` begins the log messages. The callbacks of `handle` must come from one thread.
@@ -22,7 +22,7 @@ class CameraInfoGate {
  private:
   void handleInfo(InfoGate::Side side, const sensor_msgs::CameraInfoConstPtr& info);
   void handleImage(InfoGate::Side side, const sensor_msgs::ImageConstPtr& image);
-  void askForSizes();
+  void askForImages();
   void publish(const std::vector<InfoGate::Passed>& passed);
   bool anybodyWaits() const;
   void report();
@@ -36,6 +36,7 @@ class CameraInfoGate {
   std::array<ros::Publisher, 2> publishers_;
   std::array<ros::Subscriber, 2> images_;
   std::array<ros::Subscriber, 2> infos_;
+  ros::WallTimer overdue_;  ///< runs while images are wanted
 };
 
 }  // namespace stereo_nav::ros_io

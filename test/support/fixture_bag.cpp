@@ -93,9 +93,10 @@ void writeFrame(rosbag::Bag& bag, const FixtureBag& fixture, int index) {
     Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(right_info.R.data()) = R;
   }
   writeImage(bag, fixture, inRig(fixture, topics::kLeftImage), images.left, stampOf(left_s));
-  bag.write(inRig(fixture, topics::kLeftInfo), stampOf(left_s), left_info);
+  const bool with_infos = index % fixture.info_every == 0;
+  if (with_infos) bag.write(inRig(fixture, topics::kLeftInfo), stampOf(left_s), left_info);
   writeImage(bag, fixture, inRig(fixture, topics::kRightImage), images.right, stampOf(right_s));
-  bag.write(inRig(fixture, topics::kRightInfo), stampOf(right_s), right_info);
+  if (with_infos) bag.write(inRig(fixture, topics::kRightInfo), stampOf(right_s), right_info);
   if (!fixture.rig.empty()) {
     const std::string other = std::string("/a/") + topics::kLeftImage;
     bag.write(other, stampOf(left_s), imageOf(images.right, stampOf(left_s)));

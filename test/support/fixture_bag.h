@@ -19,6 +19,7 @@ struct FixtureBag {
   bool with_ground_truth = true;
   bool with_transforms = true;
   bool compressed_bayer = false;  ///< mosaics as PNG on image_raw/compressed instead of grey images
+  int info_every = 1;             ///< images, of which the first has a camera_info
   std::string rig;                ///< namespace of the rig ("/b"); the bag then holds images of a rig /a, too
 };
 

@@ -1,5 +1,6 @@
 // Writes the fixture recording that the tests of the graph play: make_fixture_bag OUTPUT [FRAMES
-// [RIGHT_LAG_S [TOE_IN_RAD [RIG]]]]: the images of a RIG are compressed Bayer images
+// [RIGHT_LAG_S [TOE_IN_RAD [RIG]]]]: the images of a RIG are compressed Bayer images, and every fifth
+// has a camera_info
 #include <cstdio>
 #include <cstdlib>
 
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
   if (argc > 5) {
     fixture.rig = argv[5];
     fixture.compressed_bayer = true;
+    fixture.info_every = 5;
   }
   stereo_nav::test::writeFixtureBag(argv[1], fixture);
   return 0;
