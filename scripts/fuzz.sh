@@ -27,7 +27,7 @@ sanitize=("-fsanitize=address,undefined" -fno-sanitize-recover=all)
 cd "$root"
 
 sources=(test/fuzz/input_fuzz.cpp test/fuzz/input_fuzz_main.cpp src/core/{rig_file,text_table,parameters}.cpp
-  src/ros/{calibration_file,recording,rig_topics,judged_infos,pairing,conversions}.cpp
+  src/ros/{bag_structure,calibration_file,recorded_order,recording,rig_topics,judged_infos,pairing,conversions}.cpp
   src/tools/import_sequence/{image_names,image_stamps,kitti_layout,euroc_layout,images_layout}.cpp
   src/tools/import_sequence/{raw_pair,raw_pair_files,rectified_camera,frame_reader,sixteen_bits}.cpp)
 objects=()
@@ -45,5 +45,5 @@ clang++ -fsanitize=fuzzer "${sanitize[@]}" "${objects[@]}" -o "$build/fuzz/fuzz_
 
 # Strings cross the border to libraries without the sanitizers, whose containers they take for overflown.
 STEREO_NAV_FUZZ_KIND=$kind ASAN_OPTIONS=detect_container_overflow=0:detect_leaks=0 "$build/fuzz/fuzz_$kind" \
-  -max_total_time="$seconds" -max_len=20000 -timeout=20 -rss_limit_mb=1500 -print_final_stats=1 \
+  -max_total_time="$seconds" -max_len=60000 -timeout=20 -rss_limit_mb=1500 -print_final_stats=1 \
   -artifact_prefix="$build/fuzz/finding_$kind-" "$build/fuzz/inputs_$kind" "test/fuzz/corpus/$kind"

@@ -42,7 +42,7 @@ TEST_P(FuzzInputs, AreReadOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Corpus, FuzzInputs,
                          ::testing::Values("ros", "opencv", "kalibr", "kitti", "euroc", "rig", "times",
-                                           "lists", "names"),
+                                           "lists", "names", "bag"),
                          [](const auto& kind) { return std::string(kind.param); });
 
 }  // namespace
