@@ -129,10 +129,10 @@ TEST(Robot, UncertaintyIsChangedLive) {
   GraphProbe probe;
   ASSERT_TRUE(spinUntil([&] { return !probe.odometry.empty(); }));
   const std::string uncertainty = "/visual_odometry/uncertainty";
-  ASSERT_TRUE(reconfigure(uncertainty, {{"min_translation_sigma_m", 0.5}}));
+  ASSERT_TRUE(reconfigure(uncertainty, {{"column_offset_sigma_px", 100.0}}));
   EXPECT_TRUE(spinUntil([&] { return probe.odometry.back().twist.covariance[0] > 0.2; }))
       << probe.odometry.back().twist.covariance[0];
-  ASSERT_TRUE(reconfigure(uncertainty, {{"min_translation_sigma_m", 0.001}}));
+  ASSERT_TRUE(reconfigure(uncertainty, {{"column_offset_sigma_px", 0.1}}));
 }
 
 /// roswtf's opinion. Its questions to the nodes run into time-outs of its own where the machine is busy: what

@@ -8,12 +8,16 @@
 
 namespace stereo_nav::estimation {
 
-/// Lower bounds of the uncertainty of a measured motion, and the uncertainty while no motion is measured.
+/// What the calibration is uncertain by, which all frames share, and the uncertainty while no motion is
+/// measured.
 struct UncertaintyParams {
-  double min_translation_sigma_m = 0.001;  ///< per frame and axis
-  double min_rotation_sigma_rad = 0.0005;  ///< per frame and axis
-  double lost_speed_m_s = 1.0;             ///< while no motion is measured
-  double lost_turn_rate_rad_s = 1.0;       ///< while no motion is measured
+  double baseline_sigma_share = 0.001;  ///< of the distance between the cameras, as a share of it
+  double column_offset_sigma_px = 0.1;  ///< of the right camera's principal point
+  double distortion_sigma_px = 0.2;     ///< of what lens model and rectification leave over
+  double turn_sigma_share = 0.001;      ///< of the focal length: turns are too large or small by this share
+  double mounting_sigma_rad = 0.003;    ///< of the left camera's axes in base_link, about each
+  double lost_speed_m_s = 1.0;          ///< while no motion is measured
+  double lost_turn_rate_rad_s = 1.0;    ///< while no motion is measured
 
   /// Names, ranges and meanings of the parameters.
   void describe(ParameterVisitor& visitor);
@@ -21,11 +25,13 @@ struct UncertaintyParams {
 
 /// The covariances that the `odom` topic carries, in the order x y z, then rotation about x y z.
 ///
-/// First model of the uncertainty: each measured motion has the covariance that the odometry gives it, plus
-/// the floor of the parameters. A frame without a motion means an unknown velocity of `lost_speed_m_s` and
-/// `lost_turn_rate_rad_s` (one sigma) since the frame before. The covariance of the pose is the sum over all
-/// motions, carried along by the adjoint (Sola et al., "A micro Lie theory", eq. 54); that of the twist is
-/// the covariance of the last motion divided by its duration squared.
+/// The error of a pose has three parts. Each motion adds noise that is independent of that of all others
+/// (FrameResult::motion_covariance, and covariance_per_px2 for lenses that are not quite as calibrated),
+/// carried along by the adjoint (Sola et al., "A micro Lie theory", eq. 54). The newest pose has noise of its
+/// own (pose_noise). Errors of the calibration are the same in all motions: their effects add up, not their
+/// variances, so that they grow with the distance and not with its root. While no motion is measured, the
+/// velocity is unknown; a pose that is found again against the same map is as well known as before, one of a
+/// new map keeps the uncertainty of the gap.
 class OdomCovariance {
  public:
   /// `T_base_camera` takes camera coordinates into those of the base.
@@ -34,9 +40,11 @@ class OdomCovariance {
   /// Sets the parameters for all later motions.
   void setUncertainty(const UncertaintyParams& params) { params_ = params; }
 
-  /// The pose is known with this covariance (axes of odom). Returns it with the floor of one motion added: it
-  /// is never zero, since filters invert it.
-  Matrix6d start(const Eigen::Matrix3d& R_odom_base, const Matrix6d& pose_covariance);
+  /// The pose is known with this covariance (axes of odom). Returns it with a thousandth of a millimetre and
+  /// of a milliradian added: it is never zero, since filters invert it. `pose_noise` of FrameResult is that
+  /// of the frame at which the counting starts.
+  Matrix6d start(const Eigen::Matrix3d& R_odom_base, const Matrix6d& pose_covariance,
+                 const Matrix6d& pose_noise = Matrix6d::Zero());
 
   /// Adds the motion T_previous_base that a frame's `result` tells of, `interval_s` after the frame before.
   /// Returns the covariance of that motion, axes of the base after it.
@@ -50,11 +58,22 @@ class OdomCovariance {
   Matrix6d unknownTwist() const;
 
  private:
-  Matrix6d motion(const odometry::FrameResult& result, double interval_s) const;
+  /// Unit errors of the calibration: baseline, column offset, share of the turns, mounting about each axis.
+  static constexpr int kShared = 6;
+  using Effects = Eigen::Matrix<double, 6, kShared>;
+
+  Matrix6d inBase(const Matrix6d& covariance) const;
+  Effects effects(const odometry::FrameResult& result) const;
+  Matrix6d shared(const Effects& effects) const;
+  Matrix6d gap() const;
 
   UncertaintyParams params_;
   Matrix6d adjoint_base_camera_;
-  Matrix6d pose_in_base_ = Matrix6d::Zero();  ///< covariance of the pose, axes of the base
+  // All in the axes of the base.
+  Matrix6d accumulated_ = Matrix6d::Zero();  ///< noise of all motions
+  Matrix6d noise_ = Matrix6d::Zero();        ///< of the newest measured pose
+  Effects effects_ = Effects::Zero();        ///< of unit errors of the calibration on the pose
+  double lost_for_s_ = 0.0;
 };
 
 }  // namespace stereo_nav::estimation

@@ -38,6 +38,12 @@ std::uint64_t LocalMap::addLandmark(Landmark landmark, const vision::StereoObser
   return landmarks_.back().id;
 }
 
+std::optional<Matrix6d> LocalMap::growth() const {
+  auto covariance = optimizer_.newestCovariance(frames_.size());
+  if (covariance) *covariance /= static_cast<double>(frames_.size() - 1);
+  return covariance;
+}
+
 void LocalMap::removeNewest() {
   for (Landmark& landmark : landmarks_) {
     if (!landmark.views.empty() && landmark.views.back().frame + 1 == static_cast<int>(frames_.size()))

@@ -43,6 +43,9 @@ class LocalMap {
   std::uint64_t addLandmark(Landmark landmark, const vision::StereoObservation& seen);
   /// Refines all poses but the oldest one and all landmarks together.
   void refine() { optimizer_.optimise(frames_, landmarks_); }
+  /// What one keyframe adds to the uncertainty of the poses, for pixels of unit variance: the newest frame's
+  /// covariance relative to the oldest one, shared among those between. Nothing where it is unknown.
+  std::optional<Matrix6d> growth() const;
 
   /// The current frame is no keyframe: it and its observations are removed.
   void removeNewest();

@@ -181,11 +181,11 @@ PoseEstimate PoseEstimator::estimate(const std::vector<MapObservation>& observat
   const int unknowns = prior.right_time_offset_s != 0.0 ? 12 : 6;
   const auto information = minimise(observations, prior, unknowns, estimate.view);
   if (!information) return estimate;
-  const double variance_px2 = judge(observations, unknowns, estimate);
+  estimate.variance_px2 = judge(observations, unknowns, estimate);
   if (estimate.inliers < kFewestPoints) return estimate;
   const Eigen::LDLT<Eigen::MatrixXd> solver(information->topLeftCorner(unknowns, unknowns));
   const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
-  estimate.covariance = variance_px2 * inverse.topLeftCorner<6, 6>();
+  estimate.covariance = estimate.variance_px2 * inverse.topLeftCorner<6, 6>();
   estimate.view.T_camera_world = renormalised(estimate.view.T_camera_world);
   estimate.view.T_late_camera = renormalised(estimate.view.T_late_camera);
   estimate.converged = estimate.covariance.allFinite();

@@ -31,7 +31,8 @@ struct PoseEstimate {
   std::vector<double> error_px;            ///< per observation: the larger one of left and right
   std::vector<bool> inlier;                ///< error_px at most max_error_px
   std::size_t inliers = 0;
-  double rms_px = 0.0;  ///< per coordinate, over the inliers
+  double rms_px = 0.0;        ///< per coordinate, over the inliers
+  double variance_px2 = 0.0;  ///< of the pixels, per unit of the information that the covariance inverts
   bool converged = false;
 };
 

@@ -221,11 +221,13 @@ void StereoOdometry::updateMap(const StereoImages& images, const MotionPrior& pr
   motion_.update(images.times, prior, view, std::sqrt(rotation_variance));
   result.state = State::kTracking;
   result.T_previous_current = T_current_previous.inverse();
-  result.motion_covariance = estimate.covariance;
+  result.pose_noise = estimate.covariance;
+  reportSensitivity(calibration_, follower_.tracks(), estimate, result);
   result.reprojection_error_px = estimate.rms_px;
   lost_frames_ = 0;
   previous_is_keyframe_ = needsKeyframe(params_.keyframes, follower_.tracks(), keyframe_features_);
   if (previous_is_keyframe_) {
+    if (const auto growth = map_.growth()) result.motion_covariance = estimate.variance_px2 * *growth;
     makeKeyframe(images, result);
   } else {
     map_.removeNewest();

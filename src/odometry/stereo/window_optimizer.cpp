@@ -1,5 +1,6 @@
 #include "odometry/stereo/window_optimizer.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 
@@ -165,6 +166,17 @@ bool WindowOptimizer::optimise(std::vector<WindowFrame>& window, std::vector<Lan
     apply(*step, window, landmarks);
   }
   return true;
+}
+
+std::optional<Matrix6d> WindowOptimizer::newestCovariance(std::size_t frames) const {
+  const auto newest = static_cast<Eigen::Index>(6 * (frames - 2));
+  if (frames < 2 || information_.rows() < newest + 6) return std::nullopt;
+  const Eigen::LDLT<Eigen::MatrixXd> solver(information_);
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(information_.rows(), 6);
+  unit.middleRows<6>(newest).setIdentity();
+  const Matrix6d covariance = solver.solve(unit).middleRows<6>(newest);
+  if (solver.info() != Eigen::Success || !covariance.allFinite()) return std::nullopt;
+  return Matrix6d(0.5 * (covariance + covariance.transpose()));
 }
 
 }  // namespace stereo_nav::odometry

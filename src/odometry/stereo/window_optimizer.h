@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "stereo_nav/core/parameter_visitor.h"
@@ -55,6 +56,11 @@ class WindowOptimizer {
   /// Refines the poses of `window`, all but the first, and the landmarks. Returns false, and leaves both as
   /// they are, if the observations do not determine them.
   bool optimise(std::vector<WindowFrame>& window, std::vector<Landmark>& landmarks);
+
+  /// Covariance of the newest frame's pose relative to the oldest one, as the last optimise() found it, for
+  /// pixels of unit variance: of the left perturbation of T_camera_world, m, rad. Nothing where it is
+  /// unknown.
+  std::optional<Matrix6d> newestCovariance(std::size_t frames) const;
 
  private:
   struct Elimination {

@@ -28,7 +28,8 @@ Matrix6d RelativeCovariance::add(odometry::FrameResult result, double time_s) {
 }
 
 Matrix6d RelativeCovariance::operator()(std::size_t from, std::size_t to) const {
-  estimation::OdomCovariance covariance = started(T_base_camera_);
+  estimation::OdomCovariance covariance(estimation::UncertaintyParams(), T_base_camera_);
+  covariance.start(Eigen::Matrix3d::Identity(), Matrix6d::Zero(), frames_[from].result.pose_noise);
   for (std::size_t i = from + 1; i <= to; ++i) addMotion(i, covariance);
   return covariance.pose(Eigen::Matrix3d::Identity());
 }

@@ -45,6 +45,13 @@ BaseOdometry started() {
   return odometry;
 }
 
+UncertaintyParams exactCalibration() {
+  UncertaintyParams params;
+  params.baseline_sigma_share = params.column_offset_sigma_px = 0.0;
+  params.distortion_sigma_px = params.turn_sigma_share = params.mounting_sigma_rad = 0.0;
+  return params;
+}
+
 TEST(BaseOdometry, CarriesTheCamerasMotionOverToTheBase) {
   BaseOdometry odometry = started();
   const Eigen::Isometry3d motion = planar(0.1, 0.0, 0.2);
@@ -64,8 +71,7 @@ TEST(BaseOdometry, TwistIsTheConstantVelocityThatMakesTheMotion) {
 }
 
 TEST(BaseOdometry, CameraNoiseBecomesBaseNoise) {
-  UncertaintyParams params;
-  params.min_translation_sigma_m = params.min_rotation_sigma_rad = 1e-6;
+  const UncertaintyParams params = exactCalibration();
   BaseOdometry odometry(params, baseToCamera());
   odometry.update(odometry::FrameResult(), 0.0);
   odometry::FrameResult result = resultFor(planar(0.1, 0, 0), planar(0.1, 0, 0));
@@ -79,8 +85,7 @@ TEST(BaseOdometry, CameraNoiseBecomesBaseNoise) {
 }
 
 TEST(BaseOdometry, YawNoiseSpreadsSidewaysWithDistance) {
-  UncertaintyParams params;
-  params.min_translation_sigma_m = params.min_rotation_sigma_rad = 1e-6;
+  const UncertaintyParams params = exactCalibration();
   BaseOdometry odometry(params, Eigen::Isometry3d::Identity());
   odometry.update(odometry::FrameResult(), 0.0);
   odometry::FrameResult turned;

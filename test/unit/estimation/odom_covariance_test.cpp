@@ -6,54 +6,139 @@ namespace stereo_nav::estimation {
 namespace {
 
 const Eigen::Isometry3d kCameraAtBase = Eigen::Isometry3d::Identity();
+const Eigen::Matrix3d kLevel = Eigen::Matrix3d::Identity();
 
-odometry::FrameResult measured(double yaw_sigma_rad) {
+/// Ahead along x by so much, without any noise.
+odometry::FrameResult ahead(double way_m) {
   odometry::FrameResult result;
   result.state = odometry::State::kTracking;
-  result.motion_covariance(5, 5) = yaw_sigma_rad * yaw_sigma_rad;
+  result.T_previous_current.translation().x() = way_m;
   return result;
 }
 
-TEST(OdomCovariance, StartsWithTheFloorOfOneMotion) {
-  UncertaintyParams params;
-  params.min_translation_sigma_m = 0.01;
-  params.min_rotation_sigma_rad = 0.02;
-  OdomCovariance covariance(params, kCameraAtBase);
-  const Matrix6d started = covariance.start(Eigen::Matrix3d::Identity(), Matrix6d::Zero());
-  EXPECT_NEAR(started(0, 0), 1e-4, 1e-12);
-  EXPECT_NEAR(started(5, 5), 4e-4, 1e-12);
-  EXPECT_TRUE(covariance.pose(Eigen::Matrix3d::Identity()).isApprox(started));
+odometry::FrameResult lost() {
+  odometry::FrameResult result;
+  result.state = odometry::State::kLost;
+  return result;
 }
 
-TEST(OdomCovariance, AnUncertainHeadingBecomesASidewaysError) {
+UncertaintyParams perfectCalibration() {
   UncertaintyParams params;
-  params.min_translation_sigma_m = params.min_rotation_sigma_rad = 1e-6;
-  OdomCovariance covariance(params, kCameraAtBase);
+  params.baseline_sigma_share = params.column_offset_sigma_px = 0.0;
+  params.distortion_sigma_px = params.turn_sigma_share = params.mounting_sigma_rad = 0.0;
+  return params;
+}
+
+class OdomCovarianceTest : public testing::Test {
+ protected:
+  static OdomCovariance started(const UncertaintyParams& params) {
+    OdomCovariance covariance(params, kCameraAtBase);
+    covariance.start(kLevel, Matrix6d::Zero());
+    return covariance;
+  }
+  static void add(OdomCovariance& covariance, const odometry::FrameResult& result) {
+    covariance.addMotion(result, result.T_previous_current, 0.1);
+  }
+};
+
+TEST_F(OdomCovarianceTest, StartsSmallButInvertible) {
+  OdomCovariance covariance(UncertaintyParams(), kCameraAtBase);
+  const Matrix6d started = covariance.start(kLevel, Matrix6d::Zero());
+  EXPECT_GT(started.ldlt().vectorD().minCoeff(), 0.0);
+  EXPECT_LT(started(0, 0), 1e-10);
+  EXPECT_TRUE(covariance.pose(kLevel).isApprox(started));
+}
+
+TEST_F(OdomCovarianceTest, AnUncertainHeadingBecomesASidewaysError) {
+  OdomCovariance covariance(perfectCalibration(), kCameraAtBase);
   Matrix6d heading = Matrix6d::Zero();
   heading(5, 5) = 0.1 * 0.1;
-  covariance.start(Eigen::Matrix3d::Identity(), heading);
-  Eigen::Isometry3d ahead = Eigen::Isometry3d::Identity();
-  ahead.translation().x() = 2.0;
-  covariance.addMotion(measured(0.0), ahead, 0.1);
-  const Matrix6d pose = covariance.pose(Eigen::Matrix3d::Identity());
+  covariance.start(kLevel, heading);
+  add(covariance, ahead(2.0));
+  const Matrix6d pose = covariance.pose(kLevel);
   EXPECT_NEAR(pose(1, 1), 0.2 * 0.2, 1e-9);  // 2 m ahead, 0.1 rad off: 0.2 m to the side
   EXPECT_NEAR(pose(0, 0), 0.0, 1e-9);
   EXPECT_NEAR(pose(1, 5), 0.2 * 0.1, 1e-9);
 }
 
-TEST(OdomCovariance, WithoutAMotionTheVelocityIsUnknown) {
-  UncertaintyParams params;
+TEST_F(OdomCovarianceTest, NoiseOfMotionsAddsUpAndThatOfAPoseDoesNot) {
+  OdomCovariance covariance = started(perfectCalibration());
+  odometry::FrameResult result;
+  result.state = odometry::State::kTracking;
+  result.motion_covariance(0, 0) = 1e-4;
+  result.pose_noise(0, 0) = 9e-4;
+  Matrix6d motion;
+  for (int i = 0; i < 10; ++i) motion = covariance.addMotion(result, Eigen::Isometry3d::Identity(), 0.1);
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 10 * 1e-4 + 9e-4, 1e-9);
+  EXPECT_NEAR(motion(0, 0), 9e-4 + 1e-4 + 9e-4, 1e-9) << "of the pose before, of the motion, of the pose";
+}
+
+TEST_F(OdomCovarianceTest, AnUncertainBaselineMakesAnErrorThatGrowsWithTheDistance) {
+  UncertaintyParams params = perfectCalibration();
+  params.baseline_sigma_share = 0.01;
+  OdomCovariance covariance = started(params);
+  for (int i = 0; i < 100; ++i) add(covariance, ahead(0.1));
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 0.1 * 0.1, 1e-6) << "one percent of 10 m";
+  for (int i = 0; i < 100; ++i) add(covariance, ahead(-0.1));
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 0.0, 1e-6) << "back at the start";
+}
+
+TEST_F(OdomCovarianceTest, AColumnOffsetScalesFarScenesMore) {
+  UncertaintyParams params = perfectCalibration();
+  params.column_offset_sigma_px = 0.2;
+  OdomCovariance covariance = started(params);
+  odometry::FrameResult near = ahead(5.0), far = ahead(5.0);
+  near.scale_per_px = 1.0 / 50.0;
+  far.scale_per_px = 1.0 / 10.0;
+  add(covariance, near);
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), std::pow(5.0 * 0.2 / 50.0, 2), 1e-9);
+  add(covariance, far);
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), std::pow(5.0 * 0.2 / 50.0 + 5.0 * 0.2 / 10.0, 2), 1e-9);
+}
+
+TEST_F(OdomCovarianceTest, BentImagesAddWhatTheFrameSays) {
+  UncertaintyParams params = perfectCalibration();
+  params.distortion_sigma_px = 0.5;
+  OdomCovariance covariance = started(params);
+  odometry::FrameResult result = ahead(0.0);
+  result.covariance_per_px2(3, 3) = 0.04;
+  for (int i = 0; i < 10; ++i) add(covariance, result);
+  EXPECT_NEAR(covariance.pose(kLevel)(3, 3), 10 * 0.25 * 0.04, 1e-9);
+}
+
+TEST_F(OdomCovarianceTest, ACameraThatLooksAsideDrivesAside) {
+  UncertaintyParams params = perfectCalibration();
+  params.mounting_sigma_rad = 0.01;
+  OdomCovariance covariance = started(params);
+  for (int i = 0; i < 100; ++i) add(covariance, ahead(0.1));
+  const Matrix6d pose = covariance.pose(kLevel);
+  EXPECT_NEAR(pose(1, 1), 0.1 * 0.1, 1e-6) << "10 m at 0.01 rad";
+  EXPECT_NEAR(pose(2, 2), 0.1 * 0.1, 1e-6);
+  EXPECT_NEAR(pose(0, 0), 0.0, 1e-6);
+  EXPECT_NEAR(pose(5, 5), 0.0, 1e-6) << "the heading is as measured";
+}
+
+TEST_F(OdomCovarianceTest, AnUnmeasuredVelocityIsTheSameUntilAMotionIsMeasured) {
+  UncertaintyParams params = perfectCalibration();
   params.lost_speed_m_s = 2.0;
   params.lost_turn_rate_rad_s = 0.5;
-  const OdomCovariance unmoved(params, kCameraAtBase);
-  EXPECT_NEAR(unmoved.unknownTwist()(0, 0), 4.0, 1e-12);
-  OdomCovariance covariance(params, kCameraAtBase);
-  covariance.start(Eigen::Matrix3d::Identity(), Matrix6d::Zero());
-  odometry::FrameResult lost;
-  lost.state = odometry::State::kLost;
-  const Matrix6d motion = covariance.addMotion(lost, Eigen::Isometry3d::Identity(), 0.1);
-  EXPECT_NEAR(motion(0, 0), 0.2 * 0.2, 1e-12);
-  EXPECT_NEAR(motion(3, 3), 0.05 * 0.05, 1e-12);
+  OdomCovariance covariance = started(params);
+  EXPECT_NEAR(covariance.unknownTwist()(0, 0), 4.0, 1e-12);
+  for (int i = 0; i < 5; ++i) add(covariance, lost());
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), std::pow(2.0 * 0.5, 2), 1e-9);
+  EXPECT_NEAR(covariance.pose(kLevel)(3, 3), std::pow(0.5 * 0.5, 2), 1e-9);
+  add(covariance, ahead(0.3));
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 0.0, 1e-9) << "against the same map the pose is known again";
+}
+
+TEST_F(OdomCovarianceTest, ANewMapKeepsTheUncertaintyOfTheGap) {
+  OdomCovariance covariance = started(perfectCalibration());
+  for (int i = 0; i < 5; ++i) add(covariance, lost());
+  odometry::FrameResult anew = lost();
+  anew.keyframe = true;
+  add(covariance, anew);
+  for (int i = 0; i < 5; ++i) add(covariance, ahead(0.1));
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), std::pow(0.6, 2), 1e-6) << "1 m/s for 0.6 s";
 }
 
 }  // namespace

@@ -268,6 +268,24 @@ TEST_F(EvaluateImuTest, OneThatContradictsTheImagesIsSetAside) {
   });
 }
 
+/// The room's cameras and their mounting are exact: the covariances are the larger ones, but not by orders.
+TEST_F(EvaluateTest, CovariancesAreAsLargeAsTheErrors) {
+  test::FixtureBag fixture;
+  fixture.frames = 60;
+  test::writeFixtureBag(file("long.bag"), fixture);
+  ASSERT_EQ(evaluate(file("long.bag") + " --output " + file("long"), "vo.yaml").status, 0);
+  const auto nees = nlohmann::json::parse(contentOf(folder / "long/summary.json"))["nees"];
+  for (const char* interval : {"0.2", "1"}) {
+    SCOPED_TRACE(interval);
+    EXPECT_GT(nees[interval]["pairs"], 4);
+    for (const char* part : {"translation", "rotation"}) {
+      EXPECT_GT(nees[interval][part].get<double>() / 3.0, 0.05) << part;
+      EXPECT_LT(nees[interval][part].get<double>() / 3.0, 1.5) << part;
+    }
+    EXPECT_GE(nees[interval]["inside_95_percent"].get<double>(), 85.0);
+  }
+}
+
 TEST_F(EvaluateTest, RefusesBadArguments) {
   expectRefusal("", "no BAG given");
   expectRefusal(file("room.bag") + " --start -1", "--start");

@@ -63,10 +63,17 @@ struct FrameResult {
   std::string reason;  ///< why it is not kTracking: what was seen, the likely cause, the remedy
   Eigen::Isometry3d T_start_camera = Eigen::Isometry3d::Identity();      ///< held while lost
   Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  ///< motion since the previous frame
-  Matrix6d motion_covariance =
-      Matrix6d::Zero();           ///< of T_previous_current, current camera frame: m, m, m, rad, rad, rad
-  bool keyframe = false;          ///< whether this frame became a keyframe
-  std::uint32_t keyframe_id = 0;  ///< of the newest keyframe
+  /// What the motion adds to the uncertainty of this pose and all later ones, current camera frame: m, m, m,
+  /// rad, rad, rad. Where frames are measured against a map it is that of the map's growth.
+  Matrix6d motion_covariance = Matrix6d::Zero();
+  /// Noise of this frame's pose alone, which later frames do not share; current camera frame, as above.
+  Matrix6d pose_noise = Matrix6d::Zero();
+  /// By how much an offset of the right camera's columns by 1 px scales the motion; 0 where unknown.
+  double scale_per_px = 0.0;
+  /// What lenses that bend the image by 1 px (one sigma) beyond their calibration add to motion_covariance.
+  Matrix6d covariance_per_px2 = Matrix6d::Zero();
+  bool keyframe = false;                  ///< whether this frame became a keyframe
+  std::uint32_t keyframe_id = 0;          ///< of the newest keyframe
   std::uint32_t features_detected = 0;    ///< all features of the left image
   std::uint32_t features_tracked = 0;     ///< those found again
   std::uint32_t features_with_depth = 0;  ///< those of the tracked ones with a depth

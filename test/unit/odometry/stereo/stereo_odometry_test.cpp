@@ -19,7 +19,7 @@ TEST_F(StereoOdometryTest, FollowsADrive) {
   EXPECT_LT(endError(result), 0.01);  // of 0.44 m
   EXPECT_GE(result.inliers, 50u);
   EXPECT_LT(result.reprojection_error_px, 0.5);
-  const double sigma_m = std::sqrt(result.motion_covariance.topLeftCorner<3, 3>().trace());
+  const double sigma_m = std::sqrt(result.pose_noise.topLeftCorner<3, 3>().trace());
   EXPECT_GT(sigma_m, 1e-5);
   EXPECT_LT(sigma_m, 0.02);
 }
@@ -179,6 +179,7 @@ void expectEqual(const FrameResult& one, const FrameResult& other, std::size_t f
   EXPECT_EQ(one.T_start_camera.matrix(), other.T_start_camera.matrix());
   EXPECT_EQ(one.T_previous_current.matrix(), other.T_previous_current.matrix());
   EXPECT_EQ(one.motion_covariance, other.motion_covariance);
+  EXPECT_EQ(one.pose_noise, other.pose_noise);
   EXPECT_EQ(one.keyframe, other.keyframe);
   EXPECT_EQ(one.keyframe_id, other.keyframe_id);
   EXPECT_EQ(one.features_detected, other.features_detected);
