@@ -12,10 +12,20 @@ inline StereoCalibrationPair thesisRig() {
   return loadStereoCalibration(STEREO_NAV_SOURCE_DIR "/config/thesis");
 }
 
+/// A sensor that is open for a moment only.
+inline SensorParams sensorWith(double read_noise, double shot_noise, double vignetting) {
+  SensorParams sensor;
+  sensor.exposure_ms = 0.0;
+  sensor.read_noise = read_noise;
+  sensor.shot_noise = shot_noise;
+  sensor.vignetting = vignetting;
+  return sensor;
+}
+
 /// A scenario without noise, blur, vignetting or sway, in a bare room.
 inline Scenario cleanScenario() {
   Scenario scenario;
-  scenario.sensor = {0.0, 0.0, 0.0, 0.0, 0.0};
+  scenario.sensor = sensorWith(0.0, 0.0, 0.0);
   scenario.motion.sway_deg = 0.0;
   scenario.imu.kind = ImuKind::kPerfect;
   PathStep wait;
