@@ -46,6 +46,27 @@ inline ObjectParams wallAhead(double distance_m, TextureKind texture) {
   return wall;
 }
 
+/// A plain white wall that begins at the camera's axis before a dark room; the robot turns at 60 deg/s.
+inline Scenario edgeScenario() {
+  Scenario scenario = cleanScenario();
+  ObjectParams wall = wallAhead(3.0, TextureKind::kPlain);
+  wall.y_m = 4.0 + RigParams().camera.y_m;
+  wall.material.contrast = 0.0;
+  wall.material.brightness = 0.8;
+  scenario.scene.objects = {wall};
+  for (Material* material :
+       {&scenario.scene.room.walls, &scenario.scene.room.floor, &scenario.scene.room.ceiling}) {
+    material->contrast = 0.0;
+    material->brightness = 0.1;
+  }
+  PathStep turn;
+  turn.action = PathStep::Action::kTurn;
+  turn.angle_deg = 20.0;
+  scenario.path = {turn};
+  scenario.motion.max_yaw_rate_dps = 60.0;
+  return scenario;
+}
+
 /// A raw image rectified by OpenCV with the calibration's R and P.
 inline cv::Mat rectify(const CameraCalibration& calibration, const cv::Mat& raw) {
   cv::Mat K(3, 3, CV_64F), D(1, 5, CV_64F), R(3, 3, CV_64F), P(3, 3, CV_64F);

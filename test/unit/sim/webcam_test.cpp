@@ -165,22 +165,7 @@ TEST(MotionSmear, ATurnMovesTheImage) {
 }
 
 TEST(MotionSmear, FillsTheGapsBetweenTheRaysOfAnExposure) {
-  Scenario scenario = cleanScenario();
-  ObjectParams wall = wallAhead(3.0, TextureKind::kPlain);
-  wall.y_m = 4.0 + RigParams().camera.y_m;
-  wall.material.contrast = 0.0;
-  wall.material.brightness = 0.8;
-  scenario.scene.objects = {wall};
-  for (Material* material :
-       {&scenario.scene.room.walls, &scenario.scene.room.floor, &scenario.scene.room.ceiling}) {
-    material->contrast = 0.0;
-    material->brightness = 0.1;
-  }
-  PathStep turn;
-  turn.action = PathStep::Action::kTurn;
-  turn.angle_deg = 20.0;
-  scenario.path = {turn};
-  scenario.motion.max_yaw_rate_dps = 60.0;
+  Scenario scenario = edgeScenario();
   scenario.sensor.exposure_ms = 60.0;  // 26 px in four steps
   const auto largestStep = [&] {
     const Simulation simulation(scenario, thesisRig(), 1);
