@@ -2,6 +2,10 @@
 # Measure the odometry on every case made from the recordings in $STEREO_NAV_DATA and print Markdown tables.
 #
 #   scripts/results.sh [--once] [WORK_DIR] [CONFIG...]
+#   scripts/results.sh --simulated [WORK_DIR] [CONFIG...]
+#
+# --simulated: drives through the simulated world instead, before the kind camera and before a webcam, each with and
+# without the IMU; errors and consistency alone, no times. It needs no recordings.
 #
 # WORK_DIR (default: a new temporary folder) keeps the bags and, for each case and configuration, what `evaluate`
 # writes. CONFIG: files of config/ (default: vo.yaml vo_thesis.yaml). The package must be built (scripts/build.sh).
@@ -10,9 +14,13 @@
 # (scripts/lib/peers.yaml); the script ends with 1 where it is worse and must not be.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
-[[ -d ${STEREO_NAV_DATA:-} ]] || die "STEREO_NAV_DATA names no folder; set it to the one that holds euroc_mh01_a"
-once=false
-if [[ ${1:-} == --once ]]; then once=true; shift; fi
+once=false simulated=false
+case ${1:-} in
+  --once) once=true; shift ;;
+  --simulated) simulated=true; shift ;;
+esac
+$simulated || [[ -d ${STEREO_NAV_DATA:-} ]] ||
+  die "STEREO_NAV_DATA names no folder; set it to the one that holds euroc_mh01_a"
 work=$(realpath "${1:-$(mktemp -d)}")
 shift || true
 configs=("$@")
@@ -20,8 +28,38 @@ configs=("$@")
 set +u
 source "${STEREO_NAV_BUILD:-$STEREO_NAV_ROOT/build}/devel/setup.bash"
 set -u
-euroc=$STEREO_NAV_DATA/euroc_mh01_a kitti=$STEREO_NAV_DATA/kitti06_a unibo=$STEREO_NAV_DATA/unibo_robot
 mkdir -p "$work"
+
+# The same drives before both cameras, 640x480 each: the disparity map reaches as near as at 320x240.
+simulated_table() {
+  sed 's/^disparity_range: .*/disparity_range: 128/' "$STEREO_NAV_ROOT/config/disparity.yaml" >"$work/disparity.yaml"
+  echo "| drive | camera | IMU | configuration | frames | lost | ATE m | rel. % | rel. deg/m | NEES 0.2 s | NEES 1 s | NEES 5 s |"
+  echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
+  local drive camera scenario imu config bag out settings options
+  for drive in arena corridor loop turn_in_place crowd; do
+    for camera in kind webcam; do
+      bag=$work/$drive-$camera.bag scenario=$drive settings=(--set rig.image_scale=2)
+      [[ $camera == kind ]] || scenario=${drive}_webcam settings=()
+      [[ -s $bag ]] || rosrun stereo_nav simulate "$scenario" --output "$bag" "${settings[@]}" \
+        >"$work/$drive-$camera.log" 2>&1 || die "$drive, $camera cannot be made: $(tail -n 1 "$work/$drive-$camera.log")"
+      for config in "${configs[@]}"; do
+        for imu in yes no; do
+          out=$work/$drive-$camera-${config%.yaml}-$imu options=(--disparity-config "$work/disparity.yaml")
+          [[ $imu == yes ]] || options+=(--no-imu)
+          rosrun stereo_nav evaluate "$bag" --config "$config" "${options[@]}" --output "$out" >"$out.log" 2>&1 ||
+            [[ $? -eq 3 ]] || die "$drive, $camera with $config failed: $(tail -n 1 "$out.log")"
+          /usr/bin/python3 "$STEREO_NAV_ROOT/scripts/lib/results_row.py" --simulated "$drive | $camera | $imu" "$config" "$out"
+        done
+      done
+    done
+  done
+}
+
+if $simulated; then
+  simulated_table
+  exit
+fi
+euroc=$STEREO_NAV_DATA/euroc_mh01_a kitti=$STEREO_NAV_DATA/kitti06_a unibo=$STEREO_NAV_DATA/unibo_robot
 
 # name, repetitions, arguments of import_sequence
 cases=(

@@ -4,6 +4,8 @@ import hashlib
 import os
 import sys
 
+import yaml
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "scripts", "lib"))
 
@@ -118,6 +120,21 @@ def digest(*paths):
             with open(name, "rb") as file:
                 total.update(file.read())
     return total.hexdigest()[:16]
+
+
+def scenario_files(name):
+    """The file of a scenario and those that it extends, relative to config/scenarios."""
+    with open(os.path.join(ROOT, "config", "scenarios", name)) as file:
+        extended = yaml.safe_load(file).get("extends", [])
+    folder = os.path.dirname(name)
+    files = [name]
+    for other in [extended] if isinstance(extended, str) else extended:
+        files += scenario_files(os.path.normpath(os.path.join(folder, other)))
+    return files
+
+
+def scenario_digest(scenario):
+    return digest(*("config/scenarios/" + name for name in scenario_files(scenario + ".yaml")))
 
 
 def simulator_digest():

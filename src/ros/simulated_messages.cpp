@@ -63,7 +63,8 @@ sensor_msgs::Image SimulatedMessages::image(sim::Side side, std::size_t pair,
 
 PairMessages SimulatedMessages::pair(std::size_t index) const {
   const sim::PairInstants& instants = simulation_.pairs()[index];
-  const double exposure_s = 1e-3 * simulation_.scenario().sensor.exposure_ms;
+  const double left_exposure_s = 1e-3 * simulation_.exposure(sim::Side::kLeft, index).exposure_ms;
+  const double right_exposure_s = 1e-3 * simulation_.exposure(sim::Side::kRight, index).exposure_ms;
   const double readout_s = 1e-3 * simulation_.scenario().sensor.rolling_shutter_ms;
   std_msgs::Header header;
   header.seq = static_cast<std::uint32_t>(index);
@@ -82,11 +83,13 @@ PairMessages SimulatedMessages::pair(std::size_t index) const {
   messages.sync.left_sequence = instants.left_sequence;
   messages.sync.right_sequence = instants.right_sequence;
   messages.sync.pairs_dropped = instants.pairs_dropped;
-  messages.sync.left_exposure_s = messages.sync.right_exposure_s = exposure_s;
+  messages.sync.left_exposure_s = left_exposure_s;
+  messages.sync.right_exposure_s = right_exposure_s;
   messages.sync.rolling_shutter_s = readout_s;
   messages.ground_truth = groundTruth(instants.left_s);
   messages.ground_truth.header.seq = header.seq;
-  messages.available_s = std::max(instants.left_s, instants.right_s) + 0.5 * (exposure_s + readout_s);
+  messages.available_s = std::max(instants.left_s + 0.5 * (left_exposure_s + readout_s),
+                                  instants.right_s + 0.5 * (right_exposure_s + readout_s));
   return messages;
 }
 

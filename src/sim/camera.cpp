@@ -78,16 +78,16 @@ CameraCalibration loadCameraCalibration(const std::string& path) {
   }
 }
 
-CameraCalibration scaled(const CameraCalibration& calibration, int factor) {
+CameraCalibration scaled(const CameraCalibration& calibration, double factor) {
   CameraCalibration result = calibration;
-  result.width *= factor;
-  result.height *= factor;
+  result.width = static_cast<int>(std::lround(factor * calibration.width));
+  result.height = static_cast<int>(std::lround(factor * calibration.height));
   for (int row = 0; row < 2; ++row) {
     // Pixel centres: x_new + 0.5 = factor * (x + 0.5).
     result.K.row(row) *= factor;
-    result.K(row, 2) += 0.5 * (factor - 1);
+    result.K(row, 2) += 0.5 * (factor - 1.0);
     result.P.row(row) *= factor;
-    result.P(row, 2) += 0.5 * (factor - 1);
+    result.P(row, 2) += 0.5 * (factor - 1.0);
   }
   return result;
 }

@@ -33,6 +33,6 @@ struct CameraCalibration {
 CameraCalibration loadCameraCalibration(const std::string& path);
 
 /// The same lens before a sensor with `factor` times the pixels in each direction.
-CameraCalibration scaled(const CameraCalibration& calibration, int factor);
+CameraCalibration scaled(const CameraCalibration& calibration, double factor);
 
 }  // namespace stereo_nav::sim

@@ -28,54 +28,55 @@ const std::array<float, kTableSize>& normalTable() {
 }  // namespace
 
 ImageSensor::ImageSensor(int width, int height, const SensorParams& sensor, const CameraResponse& response)
-    : sensor_(sensor), response_(response), vignetting_(height, width, CV_32FC1) {
+    : sensor_(sensor),
+      response_(response),
+      processing_(sensor.processing),
+      transmission_(height, width, CV_32FC1) {
   const double cx = 0.5 * (width - 1), cy = 0.5 * (height - 1), corner2 = cx * cx + cy * cy;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double r2 = ((x - cx) * (x - cx) + (y - cy) * (y - cy)) / corner2;
-      vignetting_.at<float>(y, x) = static_cast<float>(1.0 - sensor.vignetting * r2);
+      transmission_.at<float>(y, x) = static_cast<float>(1.0 - sensor.vignetting * r2);
+    }
+  }
+  if (response.speck.opacity > 0.0) addSpeck(response.speck);
+}
+
+/// A speck is far out of focus: its shadow fades from the middle to the rim.
+void ImageSensor::addSpeck(const SpeckParams& speck) {
+  const double cx = speck.x * transmission_.cols - 0.5, cy = speck.y * transmission_.rows - 0.5;
+  const double radius_px = speck.radius * transmission_.cols;
+  for (int y = 0; y < transmission_.rows; ++y) {
+    for (int x = 0; x < transmission_.cols; ++x) {
+      const double distance = std::min(1.0, std::hypot(x - cx, y - cy) / radius_px);
+      const double inside = 1.0 - distance * distance * (3.0 - 2.0 * distance);
+      transmission_.at<float>(y, x) *= static_cast<float>(1.0 - speck.opacity * inside);
     }
   }
 }
 
-cv::Mat ImageSensor::expose(const cv::Mat& light, std::uint64_t noise_key) const {
+cv::Mat ImageSensor::expose(const cv::Mat& light, std::uint64_t noise_key, double amplifier) const {
   const auto& table = normalTable();
   const auto gain = static_cast<float>(response_.gain), offset = static_cast<float>(response_.offset);
+  const auto amplify = static_cast<float>(amplifier);
   const auto read2 = static_cast<float>(sensor_.read_noise * sensor_.read_noise);
   const auto shot2 = static_cast<float>(sensor_.shot_noise * sensor_.shot_noise);
-  cv::Mat image(light.size(), CV_8UC1);
+  cv::Mat signal(light.size(), CV_32FC1);
   std::uint64_t bits = 0;
   std::uint64_t counter = 0;
   for (int y = 0; y < light.rows; ++y) {
     const float* in = light.ptr<float>(y);
-    const float* factor = vignetting_.ptr<float>(y);
-    std::uint8_t* out = image.ptr<std::uint8_t>(y);
+    const float* factor = transmission_.ptr<float>(y);
+    float* out = signal.ptr<float>(y);
     for (int x = 0; x < light.cols; ++x) {
       if (counter % 4 == 0) bits = mixBits(noise_key + counter);  // four draws of 12 bits each
       const float noise = table[(bits >> (12 * (counter % 4))) % kTableSize];
       ++counter;
       const float grey = gain * factor[x] * in[x] + offset;
-      const float value = grey + noise * std::sqrt(read2 + shot2 * std::max(grey, 0.0f));
-      out[x] = static_cast<std::uint8_t>(std::clamp(value + 0.5f, 0.0f, 255.0f));
+      out[x] = amplify * (grey + noise * std::sqrt(read2 + shot2 * std::max(grey, 0.0f)));
     }
   }
-  return image;
-}
-
-void SensorParams::describe(ParameterVisitor& visitor) {
-  visitor.real("exposure_ms", exposure_ms, {0.0, 100.0}, "ms", "time over which an image is collected");
-  visitor.real("rolling_shutter_ms", rolling_shutter_ms, {0.0, 100.0}, "ms",
-               "from the first row's exposure to the last one's; 0 is a global shutter");
-  visitor.real("read_noise", read_noise, {0.0, 50.0}, "grey levels", "standard deviation in the dark");
-  visitor.real("shot_noise", shot_noise, {0.0, 5.0}, "grey levels",
-               "standard deviation at grey level 1; grows with the root");
-  visitor.real("vignetting", vignetting, {0.0, 1.0}, "", "light lost in the corners");
-}
-
-void CameraResponse::describe(ParameterVisitor& visitor) {
-  visitor.real("gain", gain, {0.0, 10.0}, "",
-               "factor on the light; 1 shows a material's brightness as it is");
-  visitor.real("offset", offset, {-100.0, 100.0}, "grey levels", "black level");
+  return processing_.develop(signal);
 }
 
 }  // namespace stereo_nav::sim

@@ -4,21 +4,32 @@
 #include <numeric>
 
 namespace stereo_nav::sim {
-RenderedFrame::RenderedFrame(const Scene& scene, const CameraPath& T_world_camera, const Shutter& shutter,
-                             int height, int samples)
-    : samples_(samples), global_shutter_(shutter.readout_s == 0.0) {
-  const int rows = global_shutter_ ? 1 : height;
+
+CameraInstants cameraInstants(const CameraPath& T_world_camera, const Shutter& shutter, int height,
+                              int samples) {
+  CameraInstants instants{{}, samples, shutter.readout_s == 0.0};
+  const int rows = instants.global_shutter ? 1 : height;
   for (int row = 0; row < rows; ++row) {
     for (int sample = 0; sample < samples; ++sample) {
       const double time_s = shutter.middle_s + shutter.readout_s * ((row + 0.5) / rows - 0.5) +
                             shutter.exposure_s * ((sample + 0.5) / samples - 0.5);
-      const Eigen::Isometry3d pose = T_world_camera(time_s);
-      std::vector<Candidate> candidates;
-      for (const Solid& solid : scene.solids()) candidates.push_back(makeCandidate(solid, pose, time_s));
-      candidates_.push_back(std::move(candidates));
+      instants.list.push_back({time_s, T_world_camera(time_s)});
     }
   }
-  for (std::size_t i = 0; i < scene.solids().size(); ++i) {
+  return instants;
+}
+
+RenderedFrame::RenderedFrame(const std::vector<const Solid*>& solids, const CameraInstants& instants)
+    : samples_(instants.samples), global_shutter_(instants.global_shutter) {
+  for (const CameraInstant& instant : instants.list) {
+    std::vector<Candidate> candidates;
+    candidates.reserve(solids.size());
+    for (const Solid* solid : solids) {
+      candidates.push_back(makeCandidate(*solid, instant.T_world_camera, instant.time_s));
+    }
+    candidates_.push_back(std::move(candidates));
+  }
+  for (std::size_t i = 0; i < solids.size(); ++i) {
     covers_.push_back(coverOf(candidates_.front()[i], candidates_.back()[i]));
   }
   order_.resize(covers_.size());
@@ -27,7 +38,7 @@ RenderedFrame::RenderedFrame(const Scene& scene, const CameraPath& T_world_camer
   std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return nearest(a) < nearest(b); });
 }
 
-RenderedFrame::Cover RenderedFrame::coverOf(const Candidate& first, const Candidate& last) const {
+RenderedFrame::Cover RenderedFrame::coverOf(const Candidate& first, const Candidate& last) {
   constexpr float kNear_m = 0.05f;
   // The room lies behind everything else: it is cast last, and only where nothing else was hit.
   if (first.solid->kind == Solid::Kind::kRoom)
@@ -55,11 +66,7 @@ RenderedFrame::Cover RenderedFrame::coverOf(const Candidate& first, const Candid
 void RenderedFrame::selectVisible(const Renderer::TileBounds& tile, float margin) {
   visible_.clear();
   for (const int solid : order_) {
-    const Cover& cover = covers_[static_cast<std::size_t>(solid)];
-    if (cover.x_min - margin <= tile.x_max && cover.x_max + margin >= tile.x_min &&
-        cover.y_min - margin <= tile.y_max && cover.y_max + margin >= tile.y_min) {
-      visible_.push_back(solid);
-    }
+    if (covers_[static_cast<std::size_t>(solid)].meets(tile, margin)) visible_.push_back(solid);
   }
 }
 
@@ -76,10 +83,6 @@ RaySpan RenderedFrame::cast(const float* x, const float* y, int row, int sample)
     farthest = farthestDepth(span);
   }
   return span;
-}
-
-const std::vector<Candidate>& RenderedFrame::candidates(int row, int sample) const {
-  return candidates_[static_cast<std::size_t>((global_shutter_ ? 0 : row) * samples_ + sample)];
 }
 
 }  // namespace stereo_nav::sim

@@ -1,9 +1,11 @@
 #include "sim/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "sim/ray_span.h"
+#include "sim/reflected_frame.h"
 #include "sim/rendered_frame.h"
 
 namespace stereo_nav::sim {
@@ -17,6 +19,12 @@ Eigen::Vector2d offsetInPixel(int index, int count) {
   const int shuffled_y = count == 2 ? 1 - index : (index * stride_y + count / 2) % count;
   const double scale = 1.0 / count;
   return {(shuffled_x + 0.5) * scale - 0.5, (shuffled_y + 0.5) * scale - 0.5};
+}
+
+std::vector<const Solid*> allSolids(const Scene& scene) {
+  std::vector<const Solid*> solids;
+  for (const Solid& solid : scene.solids()) solids.push_back(&solid);
+  return solids;
 }
 
 }  // namespace
@@ -75,26 +83,49 @@ void Renderer::computeTileBounds() {
 }
 
 cv::Mat Renderer::render(const CameraPath& T_world_camera, const Shutter& shutter) const {
-  RenderedFrame frame(scene_, T_world_camera, shutter, height_, samples_);
+  const CameraInstants instants = cameraInstants(T_world_camera, shutter, height_, samples_);
+  RenderedFrame frame(allSolids(scene_), instants);
+  std::vector<ReflectedFrame> reflections;
+  reflections.reserve(scene_.mirrors().size());
+  for (const Mirror& mirror : scene_.mirrors()) reflections.emplace_back(scene_, mirror, instants);
   cv::Mat light = cv::Mat::zeros(height_, width_, CV_32FC1);
   std::size_t tile = 0;
   for (int top = 0; top < height_; top += kTile) {
-    const int bottom = std::min(top + kTile, height_);
     for (int left = 0; left < stride_; left += kTile, ++tile) {
       frame.selectVisible(tiles_[tile], ray_pitch_);
-      for (int row = top; row < bottom; ++row) {
-        for (int sample = 0; sample < samples_; ++sample) {
-          const auto rays = static_cast<std::size_t>((sample * height_ + row) * stride_ + left);
-          const RaySpan span = frame.cast(ray_x_.data() + rays, ray_y_.data() + rays, row, sample);
-          const Footprint footprint{ray_pitch_,
-                                    (static_cast<float>(sample) + 0.5f) / static_cast<float>(samples_)};
-          shadeSpan(frame.candidates(row, sample), span, std::min(kTile, width_ - left), footprint,
-                    1.0f / static_cast<float>(samples_), light.ptr<float>(row) + left);
-        }
+      std::vector<const ReflectedFrame*> visible;
+      for (ReflectedFrame& reflection : reflections) {
+        if (reflection.selectVisible(tiles_[tile], ray_pitch_)) visible.push_back(&reflection);
       }
+      renderTile(frame, visible, top, left, light);
     }
   }
   return light;
+}
+
+void Renderer::renderTile(const RenderedFrame& frame, const std::vector<const ReflectedFrame*>& reflections,
+                          int top, int left, cv::Mat& light) const {
+  const int count = std::min(kTile, width_ - left);
+  const float weight = 1.0f / static_cast<float>(samples_);
+  for (int row = top; row < std::min(top + kTile, height_); ++row) {
+    float* out = light.ptr<float>(row) + left;
+    for (int sample = 0; sample < samples_; ++sample) {
+      const auto rays = static_cast<std::size_t>((sample * height_ + row) * stride_ + left);
+      const RaySpan span = frame.cast(ray_x_.data() + rays, ray_y_.data() + rays, row, sample);
+      const Footprint footprint{ray_pitch_,
+                                (static_cast<float>(sample) + 0.5f) / static_cast<float>(samples_)};
+      if (reflections.empty()) {
+        shadeSpan(frame.candidates(row, sample), span, count, footprint, weight, out);
+        continue;
+      }
+      std::array<float, kTile> seen{};
+      shadeSpan(frame.candidates(row, sample), span, count, footprint, weight, seen.data());
+      for (const ReflectedFrame* reflection : reflections) {
+        reflection->apply(span, row, sample, count, footprint, weight, seen.data());
+      }
+      for (int i = 0; i < count; ++i) out[i] += seen[static_cast<std::size_t>(i)];
+    }
+  }
 }
 
 }  // namespace stereo_nav::sim

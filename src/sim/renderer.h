@@ -18,13 +18,16 @@ struct Shutter {
   double readout_s = 0.0;
 };
 
+class ReflectedFrame;
+class RenderedFrame;
+
 /// Pose of the raw optical frame at a time: T_world_camera. Called from the rendering thread.
 using CameraPath = std::function<Eigen::Isometry3d(double time_s)>;
 
 /// Casts rays from one camera into a scene. Every pixel is the mean of `samples` rays that are spread over
 /// its area and over the exposure time at once, so that edges are smooth and motion blurs; textures are read
-/// from pyramids, along the slant of the surface with several taps. The rays of the distorted pixels are
-/// computed once. Const methods may be called from several threads.
+/// from pyramids, along the slant of the surface with several taps. Mirrors add what a second ray meets. The
+/// rays of the distorted pixels are computed once. Const methods may be called from several threads.
 class Renderer {
  public:
   /// `samples` per pixel, 1 to 16. `scene` must outlive the renderer.
@@ -35,6 +38,8 @@ class Renderer {
     float x_min, x_max, y_min, y_max;
   };
 
+  cv::Size size() const { return {width_, height_}; }
+
   /// Light on the sensor in grey levels of a perfect 8 bit camera, CV_32FC1, not limited to 255.
   cv::Mat render(const CameraPath& T_world_camera, const Shutter& shutter) const;
 
@@ -43,6 +48,8 @@ class Renderer {
 
   void computeRays(const CameraCalibration& calibration);
   void computeTileBounds();
+  void renderTile(const RenderedFrame& frame, const std::vector<const ReflectedFrame*>& reflections, int top,
+                  int left, cv::Mat& light) const;
 
   const Scene& scene_;
   int width_, height_;

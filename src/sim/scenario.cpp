@@ -1,6 +1,7 @@
 #include "sim/scenario.h"
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <sstream>
 
@@ -44,6 +45,79 @@ void applyOverride(YAML::Node root, const std::string& text) {
   }
 }
 
+/// A preset is for the sections sensor, left and right: it takes the place of what was set in them before.
+void forgetForPreset(YAML::Node sections) {
+  for (const char* section : {"sensor", "left", "right"}) sections.remove(section);
+}
+
+/// Sets what `source` holds in `target`; maps in both are merged.
+void merge(const YAML::Node& source, YAML::Node target) {
+  for (const auto& entry : source) {
+    const auto key = entry.first.as<std::string>();
+    if (entry.second.IsMap() && target[key].IsDefined() && target[key].IsMap()) {
+      merge(entry.second, target[key]);
+    } else {
+      target[key] = YAML::Clone(entry.second);
+    }
+  }
+}
+
+template <class Item>
+void append(const YAML::Node& file, const char* key, const std::string& source, std::vector<Item>& items) {
+  for (Item& item : readList<Item>(file, key, source)) items.push_back(std::move(item));
+}
+
+std::vector<std::string> extendedFiles(const YAML::Node& file, const std::string& source) {
+  const YAML::Node extends = file["extends"];
+  if (!extends.IsDefined()) return {};
+  try {
+    if (extends.IsSequence()) return extends.as<std::vector<std::string>>();
+    return {extends.as<std::string>()};
+  } catch (const YAML::Exception&) {
+    throw ParameterError(source +
+                         ": extends must be the name of a scenario file beside this one, or a list of them");
+  }
+}
+
+/// Reads the lists of a file into the scenario and its sections into `sections`, on top of the files that
+/// it extends: lists go on, but a path replaces the other one.
+void readFile(const std::string& path, int extended_by, Scenario& scenario, const YAML::Node& sections) {
+  constexpr int kMostFiles = 10;
+  if (extended_by == kMostFiles) {
+    throw ParameterError(path + " extends a chain of " + std::to_string(kMostFiles) +
+                         " files: does one of them extend itself?");
+  }
+  const YAML::Node file = loadYamlFile(path);
+  for (const std::string& name : extendedFiles(file, path)) {
+    const auto base = std::filesystem::path(path).parent_path() / name;
+    readFile(base.string(), extended_by + 1, scenario, sections);
+  }
+  if (file["path"].IsDefined()) scenario.path = readList<PathStep>(file, "path", path);
+  append(file, "events", path, scenario.events);
+  append(file, "objects", path, scenario.scene.objects);
+  append(file, "clutter", path, scenario.scene.clutter);
+  const std::set<std::string> others{"extends", "path", "events", "objects", "clutter"};
+  YAML::Node own(YAML::NodeType::Map);
+  for (const auto& entry : file) {
+    const auto key = entry.first.as<std::string>();
+    if (others.count(key) == 0) own[key] = entry.second;
+  }
+  if (own["sensor"].IsDefined() && own["sensor"].IsMap() && own["sensor"]["preset"].IsDefined()) {
+    forgetForPreset(sections);
+  }
+  merge(own, sections);
+}
+
+/// The preset gives the values that readParameters() then changes; it also refuses one that does not exist.
+void readPreset(const YAML::Node& sections, Scenario& scenario) {
+  const YAML::Node sensor = sections["sensor"];
+  if (!sensor.IsDefined() || !sensor.IsMap() || !sensor["preset"].IsDefined()) return;
+  for (const auto& [name, preset] : sensorPresetNames()) {
+    if (name == sensor["preset"].as<std::string>(""))
+      applyPreset(preset, scenario.sensor, scenario.left, scenario.right);
+  }
+}
+
 void requireOrder(const std::string& source, const std::string& lower, double from, const std::string& upper,
                   double to) {
   if (from < to) return;
@@ -51,6 +125,22 @@ void requireOrder(const std::string& source, const std::string& lower, double fr
   message << source << ": " << lower << " is " << from << " and " << upper << " is " << to
           << ": the first must be the smaller one; are they exchanged?";
   throw ParameterError(message.str());
+}
+
+void requireUsable(const Scenario& scenario, const std::string& path) {
+  const RoomParams& room = scenario.scene.room;
+  requireOrder(path, "room.x_min_m", room.x_min_m, "room.x_max_m", room.x_max_m);
+  requireOrder(path, "room.y_min_m", room.y_min_m, "room.y_max_m", room.y_max_m);
+  for (std::size_t i = 0; i < scenario.events.size(); ++i) {
+    const std::string event = "events[" + std::to_string(i) + "].";
+    requireOrder(path, event + "from_s", scenario.events[i].from_s, event + "to_s", scenario.events[i].to_s);
+  }
+  if (scenario.sensor.auto_exposure.on && scenario.sensor.full_scale_ms == 0.0) {
+    throw ParameterError(
+        path +
+        ": sensor.auto_exposure.on is true and sensor.full_scale_ms is 0: the brightness would not "
+        "depend on the exposure; set full_scale_ms, e.g. to 70");
+  }
 }
 
 }  // namespace
@@ -95,28 +185,16 @@ void Scenario::describe(ParameterVisitor& visitor) {
 }
 
 Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides) {
-  const YAML::Node file = loadYamlFile(path);
   Scenario scenario;
-  scenario.path = readList<PathStep>(file, "path", path);
-  scenario.events = readList<Event>(file, "events", path);
-  scenario.scene.objects = readList<ObjectParams>(file, "objects", path);
-  scenario.scene.clutter = readList<ClutterParams>(file, "clutter", path);
-
-  const std::set<std::string> lists{"path", "events", "objects", "clutter"};
-  YAML::Node sections(YAML::NodeType::Map);
-  for (const auto& entry : file) {
-    const auto key = entry.first.as<std::string>();
-    if (lists.count(key) == 0) sections[key] = YAML::Clone(entry.second);
+  const YAML::Node sections(YAML::NodeType::Map);
+  readFile(path, 0, scenario, sections);
+  for (const std::string& text : overrides) {
+    if (text.rfind("sensor.preset=", 0) == 0) forgetForPreset(sections);
+    applyOverride(sections, text);
   }
-  for (const std::string& text : overrides) applyOverride(sections, text);
+  readPreset(sections, scenario);
   readParameters(sections, path, scenario);
-  const RoomParams& room = scenario.scene.room;
-  requireOrder(path, "room.x_min_m", room.x_min_m, "room.x_max_m", room.x_max_m);
-  requireOrder(path, "room.y_min_m", room.y_min_m, "room.y_max_m", room.y_max_m);
-  for (std::size_t i = 0; i < scenario.events.size(); ++i) {
-    const std::string event = "events[" + std::to_string(i) + "].";
-    requireOrder(path, event + "from_s", scenario.events[i].from_s, event + "to_s", scenario.events[i].to_s);
-  }
+  requireUsable(scenario, path);
   return scenario;
 }
 

@@ -51,8 +51,11 @@ struct Scenario {
 };
 
 /// Reads a scenario file: sections as described, and the lists `path`, `objects`, `clutter`, `events`, each
-/// item as described by its struct. `overrides` are `section.name=value`, applied on top. Throws
-/// ParameterError that names file, item and parameter.
+/// item as described by its struct. `extends: FILE` (beside this one, or a list) begins with what those hold:
+/// lists go on, parameters and the path of this file count. `overrides` are `section.name=value`, applied on
+/// top; `sensor.preset` takes the place of all that was set before it in the sections sensor,
+/// left and right; what stands beside it or comes later changes single values. Throws ParameterError that
+/// names file, item and parameter.
 Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace stereo_nav::sim

@@ -41,7 +41,13 @@ Eigen::Vector3d Solid::position(double time_s) const {
 
 Scene::Scene(const SceneParams& params) : world_seed_(static_cast<std::uint64_t>(params.world_seed)) {
   addRoom(params.room);
-  for (const ObjectParams& object : params.objects) addObject(object);
+  for (const ObjectParams& object : params.objects) {
+    if (object.glass) {
+      addPane(object);
+    } else {
+      addObject(object);
+    }
+  }
   for (std::size_t i = 0; i < params.clutter.size(); ++i) scatter(params.clutter[i], i);
 }
 
@@ -74,6 +80,32 @@ void Scene::addRoom(const RoomParams& room) {
   solid.floor = makeSurface(room.floor, 2);
   solid.top = makeSurface(room.ceiling, 3);
   solids_.push_back(solid);
+  if (room.floor_gloss == 0.0) return;
+  Mirror floor;
+  floor.T_world_mirror.translation() << solid.p_world.head<2>(), 0.0;
+  floor.half_x_m = solid.half.x();
+  floor.half_y_m = solid.half.y();
+  floor.reflectance = room.floor_gloss;
+  mirrors_.push_back(floor);
+}
+
+/// A pane mirrors at both of its surfaces, 4 % each; its thickness does not matter.
+void Scene::addPane(const ObjectParams& object) {
+  constexpr double kReflectance = 0.08;
+  const bool along_x = object.length_m >= object.width_m;
+  Mirror pane;
+  pane.half_x_m = 0.5 * std::max(object.length_m, object.width_m);
+  pane.half_y_m = 0.5 * object.height_m;
+  pane.reflectance = kReflectance;
+  const double yaw_rad = (object.yaw_deg + (along_x ? 0.0 : 90.0)) * kRadPerDeg;
+  pane.T_world_mirror.linear() = (Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(0.5 * kPi, Eigen::Vector3d::UnitX()))
+                                     .toRotationMatrix();
+  for (int i = 0; i < object.repeats; ++i) {
+    pane.T_world_mirror.translation() << object.x_m + i * object.repeat_x_m,
+        object.y_m + i * object.repeat_y_m, object.bottom_m + 0.5 * object.height_m;
+    mirrors_.push_back(pane);
+  }
 }
 
 void Scene::addObject(const ObjectParams& object) {
@@ -92,7 +124,10 @@ void Scene::addObject(const ObjectParams& object) {
   solid.walk_m = {object.walk_x_m, object.walk_y_m};
   solid.walk_period_s = object.walk_period_s;
   solid.walk_phase = object.walk_phase;
-  solids_.push_back(solid);
+  for (int i = 0; i < object.repeats; ++i) {
+    solids_.push_back(solid);
+    solid.p_world += Eigen::Vector3d(object.repeat_x_m, object.repeat_y_m, 0.0);
+  }
 }
 
 void Scene::scatter(const ClutterParams& clutter, std::uint64_t index) {

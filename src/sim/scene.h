@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/mirror.h"
 #include "sim/texture.h"
 #include "stereo_nav/core/parameter_visitor.h"
 
@@ -39,6 +40,10 @@ struct ObjectParams {
   double walk_y_m = 0.0;
   double walk_period_s = 10.0;
   double walk_phase = 0.0;  ///< share of the period that has passed at time 0
+  bool glass = false;       ///< a pane: shows what is behind it, mirrors what is before it
+  int repeats = 1;          ///< it stands there so often, and looks the same each time
+  double repeat_x_m = 0.0;  ///< from one to the next
+  double repeat_y_m = 0.0;
 
   void describe(ParameterVisitor& visitor);
 };
@@ -50,6 +55,7 @@ struct RoomParams {
   double y_min_m = -8.0;
   double y_max_m = 8.0;
   double height_m = 5.0;
+  double floor_gloss = 0.0;  ///< share of the light that the floor mirrors straight down, 0 is matt
   Material floor;
   Material walls;
   Material ceiling;
@@ -117,6 +123,8 @@ class Scene {
   explicit Scene(const SceneParams& params);
 
   const std::vector<Solid>& solids() const { return solids_; }
+  /// Glossy floor first, then panes of glass, which no ray of castRay() meets.
+  const std::vector<Mirror>& mirrors() const { return mirrors_; }
 
   /// Distance along a ray (in lengths of `direction`) to the first surface, for tests and for depth truth.
   double castRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double time_s) const;
@@ -125,11 +133,13 @@ class Scene {
   Surface makeSurface(const Material& material, std::uint64_t instance);
   void addRoom(const RoomParams& room);
   void addObject(const ObjectParams& object);
+  void addPane(const ObjectParams& object);
   void scatter(const ClutterParams& clutter, std::uint64_t index);
 
   std::uint64_t world_seed_;
   std::map<TextureKind, std::unique_ptr<Texture>> textures_;
   std::vector<Solid> solids_;
+  std::vector<Mirror> mirrors_;
 };
 
 }  // namespace stereo_nav::sim

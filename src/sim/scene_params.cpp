@@ -14,7 +14,8 @@ void describeShape(ParameterVisitor& visitor, Shape& shape) {
 
 void Material::describe(ParameterVisitor& visitor) {
   visitEnum(visitor, "texture", texture, textureNames(), "what the surface looks like");
-  visitor.real("brightness", brightness, {0.0, 2.0}, "", "mean grey level in full light, 1 is white");
+  visitor.real("brightness", brightness, {0.0, 100.0}, "",
+               "mean grey level in full light, 1 is white; lamps and windows are brighter");
   visitor.real("contrast", contrast, {0.0, 4.0}, "", "strength of the texture, 0 is a plain surface");
   visitor.real("texel_mm", texel_mm, {0.1, 100.0}, "mm", "size of a texel; the texture repeats after 1024");
 }
@@ -33,6 +34,10 @@ void ObjectParams::describe(ParameterVisitor& visitor) {
   visitor.real("walk_y_m", walk_y_m, kPlace, "m", "it walks this far left and back");
   visitor.real("walk_period_s", walk_period_s, {0.1, 1e4}, "s", "time for there and back");
   visitor.real("walk_phase", walk_phase, {0.0, 1.0}, "", "share of the period that has passed at the start");
+  visitor.flag("glass", glass, "a pane of glass in the middle of its thinner side, at rest");
+  visitor.integer("repeats", repeats, {1, 1000}, "", "it stands there so often and looks the same each time");
+  visitor.real("repeat_x_m", repeat_x_m, kPlace, "m", "forward, from one to the next");
+  visitor.real("repeat_y_m", repeat_y_m, kPlace, "m", "to the left, from one to the next");
 }
 
 void RoomParams::describe(ParameterVisitor& visitor) {
@@ -41,6 +46,8 @@ void RoomParams::describe(ParameterVisitor& visitor) {
   visitor.real("y_min_m", y_min_m, kPlace, "m", "wall on the right");
   visitor.real("y_max_m", y_max_m, kPlace, "m", "wall on the left");
   visitor.real("height_m", height_m, kExtent, "m", "of the ceiling");
+  visitor.real("floor_gloss", floor_gloss, {0.0, 1.0}, "",
+               "share of the light that the floor mirrors straight down, more at a slant: 0.04 is varnish");
   visitSection(visitor, "floor", floor);
   visitSection(visitor, "walls", walls);
   visitSection(visitor, "ceiling", ceiling);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
+#include "core/angles.h"
+#include "sim/motion_smear.h"
 #include "sim/random.h"
 
 namespace stereo_nav::sim {
@@ -10,6 +13,10 @@ namespace {
 
 /// Time that the lamps take from one level to another.
 constexpr double kFade_s = 0.2;
+/// Columns of the image from which the automatic exposure takes its mean.
+constexpr double kMeterColumns = 40.0;
+/// Motion between two rays of a pixel that needs no filling in.
+constexpr double kSmallStep_px = 0.5;
 
 /// The share of an event at a time: 0 outside, 1 inside, with ramps before and after.
 double share(const Event& event, double time_s) {
@@ -30,7 +37,11 @@ Simulation::Simulation(const Scenario& scenario, const StereoCalibrationPair& ca
       pairs_(pairInstants(scenario.timing, trajectory_.duration_s(), seed)),
       imu_(simulateImu(scenario.imu, trajectory_, trajectory_.duration_s(), seed)),
       left_(makeCamera(Side::kLeft, scaled(calibration.left, scenario.rig.image_scale))),
-      right_(makeCamera(Side::kRight, scaled(calibration.right, scenario.rig.image_scale))) {}
+      right_(makeCamera(Side::kRight, scaled(calibration.right, scenario.rig.image_scale))) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    (side == Side::kLeft ? left_ : right_)->exposures = planned(side);
+  }
+}
 
 std::unique_ptr<Simulation::Camera> Simulation::makeCamera(Side side,
                                                            const CameraCalibration& calibration) const {
@@ -39,9 +50,11 @@ std::unique_ptr<Simulation::Camera> Simulation::makeCamera(Side side,
   T_rectified_raw.translation().x() = calibration.offsetX_m();
   const CameraResponse& response = side == Side::kLeft ? scenario_.left : scenario_.right;
   return std::make_unique<Camera>(
-      Camera{calibration, scenario_.rig.T_base_camera() * T_rectified_raw,
+      Camera{calibration,
+             scenario_.rig.T_base_camera() * T_rectified_raw,
              Renderer(scene_, calibration, scenario_.rig.samples_per_pixel),
-             ImageSensor(calibration.width, calibration.height, scenario_.sensor, response)});
+             ImageSensor(calibration.width, calibration.height, scenario_.sensor, response),
+             {}});
 }
 
 double Simulation::imageTime(Side side, std::size_t pair) const {
@@ -68,19 +81,61 @@ bool Simulation::blocked(Side side, double time_s) const {
   });
 }
 
+std::vector<ExposureSetting> Simulation::planned(Side side) const {
+  if (!scenario_.sensor.auto_exposure.on) return planExposures(scenario_.sensor, pairs_.size(), nullptr);
+  const Camera& cam = camera(side);
+  const double gain = (side == Side::kLeft ? scenario_.left : scenario_.right).gain;
+  const Renderer few(scene_, scaled(cam.calibration, kMeterColumns / cam.calibration.width), 1);
+  return planExposures(
+      scenario_.sensor, pairs_.size(), [&](std::size_t pair, const ExposureSetting& setting) {
+        return meteredGrey(signal(side, pair, few, setting), gain * setting.gain, cam.sensor.processing());
+      });
+}
+
+Shutter Simulation::shutter(Side side, std::size_t pair, const ExposureSetting& setting) const {
+  return {imageTime(side, pair), 1e-3 * setting.exposure_ms, 1e-3 * scenario_.sensor.rolling_shutter_ms};
+}
+
+cv::Mat Simulation::signal(Side side, std::size_t pair, const Renderer& renderer,
+                           const ExposureSetting& setting) const {
+  const Shutter open = shutter(side, pair, setting);
+  cv::Mat light;
+  if (blocked(side, open.middle_s)) {  // as with a hand on the lens, a little light comes through
+    light = cv::Mat(renderer.size(), CV_32FC1, cv::Scalar(8.0));
+  } else {
+    light = renderer.render([&](double t) { return cameraPose(side, t); }, open);
+  }
+  light *= lightLevel(open.middle_s) * signalPerLight(scenario_.sensor, setting.exposure_ms);
+  if (scenario_.sensor.flicker.mains_hz > 0.0) flicker(open, light);
+  return light;
+}
+
+void Simulation::flicker(const Shutter& open, cv::Mat& light) const {
+  const double phase_rad = 2.0 * kPi * uniformDraw(streamKey(seed_, Stream::kLight), 0);
+  for (int row = 0; row < light.rows; ++row) {
+    const double middle_s = open.middle_s + open.readout_s * ((row + 0.5) / light.rows - 0.5);
+    light.row(row) *= lampLight(scenario_.sensor.flicker, phase_rad, middle_s, open.exposure_s);
+  }
+}
+
+void Simulation::blur(Side side, const Shutter& open, cv::Mat& light) const {
+  if (scenario_.sensor.smooth_motion_blur) {
+    const double half_s = 0.5 * open.exposure_s / scenario_.rig.samples_per_pixel;
+    const Eigen::Vector2d step_px =
+        turnedBy(camera(side).calibration, cameraPose(side, open.middle_s - half_s).linear(),
+                 cameraPose(side, open.middle_s + half_s).linear());
+    if (step_px.norm() > kSmallStep_px) light = smeared(light, step_px);
+  }
+  const double sigma_px = scenario_.sensor.lens_blur_px;
+  if (sigma_px > 0.0) cv::GaussianBlur(light, light, cv::Size(), sigma_px, sigma_px, cv::BORDER_REPLICATE);
+}
+
 cv::Mat Simulation::image(Side side, std::size_t pair) const {
   const Camera& cam = camera(side);
-  const double time_s = imageTime(side, pair);
-  cv::Mat light;
-  if (blocked(side, time_s)) {  // as with a hand on the lens, a little light comes through
-    light = cv::Mat(cam.calibration.height, cam.calibration.width, CV_32FC1, cv::Scalar(8.0));
-  } else {
-    const Shutter shutter{time_s, 1e-3 * scenario_.sensor.exposure_ms,
-                          1e-3 * scenario_.sensor.rolling_shutter_ms};
-    light = cam.renderer.render([&](double t) { return cameraPose(side, t); }, shutter);
-  }
-  light *= lightLevel(time_s);
-  return cam.sensor.expose(light, streamKey(seed_, Stream::kPixelNoise, side, pair));
+  const ExposureSetting& setting = exposure(side, pair);
+  cv::Mat light = signal(side, pair, cam.renderer, setting);
+  blur(side, shutter(side, pair, setting), light);
+  return cam.sensor.expose(light, streamKey(seed_, Stream::kPixelNoise, side, pair), setting.gain);
 }
 
 }  // namespace stereo_nav::sim

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/camera.h"
+#include "sim/exposure_plan.h"
 #include "sim/renderer.h"
 #include "sim/scenario.h"
 
@@ -38,6 +39,9 @@ class Simulation {
   /// Exposure time of an image, middle of its middle row.
   double imageTime(Side side, std::size_t pair) const;
 
+  /// With what an image is taken.
+  const ExposureSetting& exposure(Side side, std::size_t pair) const { return camera(side).exposures[pair]; }
+
   /// The raw, distorted image of a pair, CV_8UC1.
   cv::Mat image(Side side, std::size_t pair) const;
 
@@ -50,10 +54,18 @@ class Simulation {
     Eigen::Isometry3d T_base_raw;
     Renderer renderer;
     ImageSensor sensor;
+    std::vector<ExposureSetting> exposures;  ///< of each pair's image
   };
 
   std::unique_ptr<Camera> makeCamera(Side side, const CameraCalibration& calibration) const;
   const Camera& camera(Side side) const { return side == Side::kLeft ? *left_ : *right_; }
+  std::vector<ExposureSetting> planned(Side side) const;
+  /// What a camera's pixels collect, before the amplifier and without noise: the camera's own, or those of a
+  /// `renderer` with fewer.
+  cv::Mat signal(Side side, std::size_t pair, const Renderer& renderer, const ExposureSetting& setting) const;
+  void flicker(const Shutter& open, cv::Mat& light) const;
+  void blur(Side side, const Shutter& open, cv::Mat& light) const;
+  Shutter shutter(Side side, std::size_t pair, const ExposureSetting& setting) const;
   double lightLevel(double time_s) const;
   bool blocked(Side side, double time_s) const;
 

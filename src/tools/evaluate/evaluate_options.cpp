@@ -57,6 +57,8 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("rolling-shutter-ms", po::value<double>(),
        "time from an image's first row to its last, instead of what the recording says; 0: global shutter. "
        "The stamps are taken as those of the middle row.")  //
+      ("no-imu", po::bool_switch(&options.no_imu),
+       "the path of vision alone, as if the recording held no IMU")  //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;

@@ -19,6 +19,7 @@ struct EvaluateOptions {
   double truth_sigma_deg = 0.0;  ///< likewise of its attitudes
   std::string output;            ///< folder
   ros_io::RecordingOptions part;
+  bool no_imu = false;  ///< by vision alone, though the recording holds an IMU
   int repeat = 1;
 };
 

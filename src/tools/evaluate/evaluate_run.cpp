@@ -196,6 +196,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   const Eigen::Isometry3d T_base_camera =
       requireTransform(recording, options.bag, ros_io::frames::kBase, recording.leftInfo().header.frame_id);
   ImuMounting imu = imuMounting(recording);
+  if (options.no_imu && !recording.imu().empty()) imu.problem = "--no-imu was asked for";
 
   EvaluationRun run;
   run.unpaired_images = recording.unpairedImages();

@@ -2,13 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "sim_test_support.h"
+
 namespace stereo_nav::sim {
 namespace {
 
 const cv::Mat kGrey(240, 320, CV_32FC1, cv::Scalar(100.0));
 
 TEST(ImageSensor, NoiseHasItsSpreadAndNoMean) {
-  SensorParams params{0.0, 0.0, 3.0, 0.2, 0.0};
+  const SensorParams params = sensorWith(3.0, 0.2, 0.0);
   const cv::Mat image = ImageSensor(320, 240, params, CameraResponse()).expose(kGrey, 42);
   cv::Scalar mean, deviation;
   cv::meanStdDev(image, mean, deviation);
@@ -17,8 +19,10 @@ TEST(ImageSensor, NoiseHasItsSpreadAndNoMean) {
 }
 
 TEST(ImageSensor, GainOffsetVignettingAndSaturation) {
-  SensorParams params{0.0, 0.0, 0.0, 0.0, 0.5};
-  const CameraResponse response{1.2, -20.0};
+  const SensorParams params = sensorWith(0.0, 0.0, 0.5);
+  CameraResponse response;
+  response.gain = 1.2;
+  response.offset = -20.0;
   const cv::Mat image =
       ImageSensor(321, 241, params, response).expose(cv::Mat(241, 321, CV_32FC1, cv::Scalar(100.0)), 1);
   EXPECT_EQ(image.at<uchar>(120, 160), 100);  // 1.2 * 100 - 20

@@ -89,27 +89,6 @@ double edgeColumn(const cv::Mat& image, int row) {
   return -1.0;
 }
 
-/// A plain white wall that begins at the camera's axis before a dark room.
-Scenario edgeScenario() {
-  Scenario scenario = cleanScenario();
-  ObjectParams wall = wallAhead(3.0, TextureKind::kPlain);
-  wall.y_m = 4.0 + RigParams().camera.y_m;
-  wall.material.contrast = 0.0;
-  wall.material.brightness = 0.8;
-  scenario.scene.objects = {wall};
-  for (Material* material :
-       {&scenario.scene.room.walls, &scenario.scene.room.floor, &scenario.scene.room.ceiling}) {
-    material->contrast = 0.0;
-    material->brightness = 0.1;
-  }
-  PathStep turn;
-  turn.action = PathStep::Action::kTurn;
-  turn.angle_deg = 20.0;
-  scenario.path = {turn};
-  scenario.motion.max_yaw_rate_dps = 60.0;
-  return scenario;
-}
-
 TEST(Renderer, MotionBlursOverTheExposureAroundItsMiddle) {
   Scenario scenario = edgeScenario();
   scenario.rig.samples_per_pixel = 16;

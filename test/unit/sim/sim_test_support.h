@@ -12,10 +12,20 @@ inline StereoCalibrationPair thesisRig() {
   return loadStereoCalibration(STEREO_NAV_SOURCE_DIR "/config/thesis");
 }
 
+/// A sensor that is open for a moment only.
+inline SensorParams sensorWith(double read_noise, double shot_noise, double vignetting) {
+  SensorParams sensor;
+  sensor.exposure_ms = 0.0;
+  sensor.read_noise = read_noise;
+  sensor.shot_noise = shot_noise;
+  sensor.vignetting = vignetting;
+  return sensor;
+}
+
 /// A scenario without noise, blur, vignetting or sway, in a bare room.
 inline Scenario cleanScenario() {
   Scenario scenario;
-  scenario.sensor = {0.0, 0.0, 0.0, 0.0, 0.0};
+  scenario.sensor = sensorWith(0.0, 0.0, 0.0);
   scenario.motion.sway_deg = 0.0;
   scenario.imu.kind = ImuKind::kPerfect;
   PathStep wait;
@@ -34,6 +44,27 @@ inline ObjectParams wallAhead(double distance_m, TextureKind texture) {
   wall.x_m = RigParams().camera.x_m + distance_m + 0.5 * wall.length_m;
   wall.material.texture = texture;
   return wall;
+}
+
+/// A plain white wall that begins at the camera's axis before a dark room; the robot turns at 60 deg/s.
+inline Scenario edgeScenario() {
+  Scenario scenario = cleanScenario();
+  ObjectParams wall = wallAhead(3.0, TextureKind::kPlain);
+  wall.y_m = 4.0 + RigParams().camera.y_m;
+  wall.material.contrast = 0.0;
+  wall.material.brightness = 0.8;
+  scenario.scene.objects = {wall};
+  for (Material* material :
+       {&scenario.scene.room.walls, &scenario.scene.room.floor, &scenario.scene.room.ceiling}) {
+    material->contrast = 0.0;
+    material->brightness = 0.1;
+  }
+  PathStep turn;
+  turn.action = PathStep::Action::kTurn;
+  turn.angle_deg = 20.0;
+  scenario.path = {turn};
+  scenario.motion.max_yaw_rate_dps = 60.0;
+  return scenario;
 }
 
 /// A raw image rectified by OpenCV with the calibration's R and P.

@@ -286,6 +286,16 @@ TEST_F(EvaluateTest, CovariancesAreAsLargeAsTheErrors) {
   }
 }
 
+TEST_F(EvaluateImuTest, OneIsLeftOutOnRequest) {
+  for (const std::string bag : {"turn", "vision"}) {
+    const auto result = evaluate(file(bag + ".bag") + " --no-imu --output " + file(bag + "_only"), "vo.yaml");
+    EXPECT_EQ(result.status, 0) << result.output;
+    EXPECT_EQ(result.output.find("--no-imu was asked for") != std::string::npos, bag == "turn")
+        << result.output;
+  }
+  EXPECT_EQ(contentOf(folder / "turn_only/trajectory.tum"), contentOf(folder / "vision_only/trajectory.tum"));
+}
+
 TEST_F(EvaluateTest, RefusesBadArguments) {
   expectRefusal("", "no BAG given");
   expectRefusal(file("room.bag") + " --start -1", "--start");
