@@ -55,7 +55,7 @@ void Drive::checkDetermined() const {
   if (solver.eigenvalues()(0) > kRankThreshold * solver.eigenvalues()(2)) return;
   const Eigen::Vector3d free = solver.eigenvectors().col(0);
   throw ParameterError(
-      "drive: the " + std::to_string(size()) + " wheels do not determine the motion forward " +
+      "the " + std::to_string(size()) + " wheels do not determine the motion forward " +
       std::to_string(free.x()) + " m, left " + std::to_string(free.y()) + " m, turning " +
       std::to_string(free.z()) +
       " rad; most likely a wheel is missing, or positions or directions coincide: check wheel_1 to "
