@@ -10,6 +10,7 @@ namespace stereo_nav::kinematics {
 namespace {
 
 constexpr double kRankThreshold = 1e-9;
+constexpr double kSameAxle = 0.02;  // fixed wheels that differ by less, as measured ones do, are on one axle
 
 Eigen::RowVector3d along(double direction_rad, const WheelParams& wheel) {
   const double c = std::cos(direction_rad);
@@ -23,7 +24,7 @@ Eigen::Matrix3d nullSpaceProjection(const Eigen::MatrixX3d& rows) {
   const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(rows, Eigen::ComputeFullV);
   Eigen::Matrix3d projection = Eigen::Matrix3d::Identity();
   for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i) {
-    if (svd.singularValues()(i) < kRankThreshold * svd.singularValues()(0)) continue;
+    if (svd.singularValues()(i) < kSameAxle * svd.singularValues()(0)) continue;
     projection -= svd.matrixV().col(i) * svd.matrixV().col(i).transpose();
   }
   return projection;
