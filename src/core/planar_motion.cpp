@@ -38,6 +38,13 @@ Eigen::Vector3d logPlanar(const Eigen::Isometry2d& T) {
           angle_rad};
 }
 
+Eigen::Isometry2d planarPart(const Eigen::Isometry3d& T) {
+  Eigen::Isometry2d planar = Eigen::Isometry2d::Identity();
+  planar.linear() = Eigen::Rotation2Dd(std::atan2(T(1, 0), T(0, 0))).toRotationMatrix();
+  planar.translation() = T.translation().head<2>();
+  return planar;
+}
+
 Eigen::Matrix3d adjointPlanar(const Eigen::Isometry2d& T_a_b) {
   Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
   result.topLeftCorner<2, 2>() = T_a_b.linear();

@@ -10,6 +10,10 @@ namespace stereo_nav {
 Eigen::Isometry2d expPlanar(const Eigen::Vector3d& twist);
 Eigen::Vector3d logPlanar(const Eigen::Isometry2d& T);
 
+/// The part of a pose in space that lies in the x-y plane; its rotation is that of the x axis, seen from
+/// above.
+Eigen::Isometry2d planarPart(const Eigen::Isometry3d& T);
+
 /// Takes a small planar motion that is expressed in frame b into frame a (Sola et al., eq. 159).
 Eigen::Matrix3d adjointPlanar(const Eigen::Isometry2d& T_a_b);
 

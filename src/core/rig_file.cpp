@@ -22,7 +22,8 @@ void refuseUnknownSections(const YAML::Node& rig, const std::string& source) {
     bool known = false;
     std::string names;
     for (const char* section :
-         {rig_sections::kCameras, rig_sections::kImu, rig_sections::kMounting, rig_sections::kDisparity}) {
+         {rig_sections::kCameras, rig_sections::kImu, rig_sections::kMounting, rig_sections::kDisparity,
+          rig_sections::kDrive, rig_sections::kWheelOdometry}) {
       known = known || name == section;
       names += (names.empty() ? "" : " | ") + std::string(section);
     }
@@ -35,6 +36,13 @@ std::size_t positionOf(const std::string& text, const YAML::Mark& mark) {
   std::size_t line_start = 0;
   for (int line = 0; line < mark.line; ++line) line_start = text.find('\n', line_start) + 1;
   return line_start + static_cast<std::size_t>(mark.column);
+}
+
+/// The first `count` names.
+std::string joined(const std::vector<std::string>& path, std::size_t count) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) text += (i == 0 ? "" : "/") + path[i];
+  return text;
 }
 
 std::string toText(double angle_deg) {
@@ -138,19 +146,57 @@ void RigFile::setRotation(const std::string& sensor, const Eigen::Matrix3d& R_ba
   SensorMounting mounting;
   mounting.setRotation(R_base_sensor);
   requireRotation(sensor);
-  setNumber(sensor, kAngles[0], toText(mounting.roll_deg));
-  setNumber(sensor, kAngles[1], toText(mounting.pitch_deg));
-  setNumber(sensor, kAngles[2], toText(mounting.yaw_deg));
+  const std::string angles[] = {toText(mounting.roll_deg), toText(mounting.pitch_deg),
+                                toText(mounting.yaw_deg)};
+  for (std::size_t i = 0; i < kAngles.size(); ++i)
+    replaceNumber(numberNode(sensor, kAngles[i]), "mounting/" + sensor + "/" + kAngles[i], angles[i]);
 }
 
-void RigFile::setNumber(const std::string& sensor, const std::string& name, const std::string& value) {
-  const YAML::Node node = numberNode(sensor, name);
+void RigFile::setNumber(const std::vector<std::string>& path, const std::string& value) {
+  const std::string name = joined(path, path.size());
+  YAML::Node node = section(path.front());
+  if (node.IsNull() && path.size() == 2) {
+    const bool ends_a_line = text_.empty() || text_.back() == '\n';
+    edit(text_.size(), 0, (ends_a_line ? "" : "\n") + path[0] + ":\n  " + path[1] + ": " + value + "\n");
+    return;
+  }
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const bool last = i + 1 == path.size();
+    const YAML::Node child =
+        node.IsMap() ? std::as_const(node)[path[i]] : YAML::Node(YAML::NodeType::Undefined);
+    if (!child.IsDefined() && (!last || !node.IsMap() || node.size() == 0)) {
+      throw ParameterError(source_ + ": " + name + " cannot be set: " + joined(path, last ? i : i + 1) +
+                           " is missing or empty; write that part of the file first");
+    }
+    if (!child.IsDefined()) {
+      insert(node, path[i], value);
+      return;
+    }
+    node.reset(child);
+  }
+  replaceNumber(node, name, value);
+}
+
+/// Before the first line, or the first entry, of a map.
+void RigFile::insert(const YAML::Node& map, const std::string& name, const std::string& value) {
+  const YAML::Mark first = map.begin()->first.Mark();
+  const std::string between = map.Style() == YAML::EmitterStyle::Flow
+                                  ? ", "
+                                  : "\n" + std::string(static_cast<std::size_t>(first.column), ' ');
+  edit(positionOf(text_, first), 0, name + ": " + value + between);
+}
+
+void RigFile::replaceNumber(const YAML::Node& node, const std::string& full_name, const std::string& value) {
   const std::size_t position = positionOf(text_, node.Mark());
-  if (text_.compare(position, node.Scalar().size(), node.Scalar()) != 0) {
-    throw ParameterError(source_ + ": mounting/" + sensor + "/" + name +
+  if (!node.IsScalar() || text_.compare(position, node.Scalar().size(), node.Scalar()) != 0) {
+    throw ParameterError(source_ + ": " + full_name +
                          " must be a plain number, without quotes, tags or anchors, to be replaced");
   }
-  text_.replace(position, node.Scalar().size(), value);
+  edit(position, node.Scalar().size(), value);
+}
+
+void RigFile::edit(std::size_t position, std::size_t length, const std::string& text) {
+  text_.replace(position, length, text);
   root_.reset(parseYaml(text_, source_));  // assignment would change the nodes of copies of this object, too
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <string>
+#include <vector>
 
 #include "stereo_nav/core/parameter_visitor.h"
 
@@ -42,10 +43,12 @@ struct Mounting {
 
 /// Sections of a rig file (config/rigs/thesis.yaml).
 namespace rig_sections {
-constexpr const char* kCameras = "cameras";      ///< stereo_capture's parameters
-constexpr const char* kImu = "imu";              ///< imu_bridge's parameters
-constexpr const char* kMounting = "mounting";    ///< Mounting
-constexpr const char* kDisparity = "disparity";  ///< parameters of stereo_image_proc/disparity
+constexpr const char* kCameras = "cameras";               ///< stereo_capture's parameters
+constexpr const char* kImu = "imu";                       ///< imu_bridge's parameters
+constexpr const char* kMounting = "mounting";             ///< Mounting
+constexpr const char* kDisparity = "disparity";           ///< parameters of stereo_image_proc/disparity
+constexpr const char* kDrive = "drive";                   ///< the wheels: kinematics::readDrive()
+constexpr const char* kWheelOdometry = "wheel_odometry";  ///< wheel_odometry's parameters
 }  // namespace rig_sections
 
 /// A rig file holds everything that is specific to one robot. This is the only reader and writer of such
@@ -71,12 +74,19 @@ class RigFile {
   /// byte of the text stays as it is, including comments and line ends.
   void setRotation(const std::string& sensor, const Eigen::Matrix3d& R_base_sensor);
 
+  /// Sets the number at `path`, e.g. {"drive", "wheel_1", "radius_m"}. Where its map has no such line, one is
+  /// inserted before the first; a section that the file does not have is appended. Every other byte of the
+  /// text stays as it is.
+  void setNumber(const std::vector<std::string>& path, const std::string& value);
+
   const std::string& text() const { return text_; }
 
  private:
   RigFile(std::string text, std::string source);
   YAML::Node numberNode(const std::string& sensor, const std::string& name) const;
-  void setNumber(const std::string& sensor, const std::string& name, const std::string& value);
+  void replaceNumber(const YAML::Node& node, const std::string& full_name, const std::string& value);
+  void insert(const YAML::Node& map, const std::string& name, const std::string& value);
+  void edit(std::size_t position, std::size_t length, const std::string& text);
 
   std::string text_;
   std::string source_;

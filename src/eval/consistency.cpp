@@ -18,16 +18,37 @@ Matrix6d truthNoise(const EvaluationInput& input, const Eigen::Isometry3d& T_fro
   return carry * noise * carry.transpose() + noise;
 }
 
-double squared(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {
-  return error.dot(covariance.ldlt().solve(error));
+/// Of the given axes alone.
+double squared(const Vector6d& error, const Matrix6d& covariance, const std::vector<Eigen::Index>& axes) {
+  const auto n = static_cast<Eigen::Index>(axes.size());
+  Eigen::VectorXd e(n);
+  Eigen::MatrixXd P(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    e(i) = error(axes[static_cast<std::size_t>(i)]);
+    for (Eigen::Index j = 0; j < n; ++j)
+      P(i, j) = covariance(axes[static_cast<std::size_t>(i)], axes[static_cast<std::size_t>(j)]);
+  }
+  return e.dot(P.ldlt().solve(e));
+}
+
+/// What the odometry knows of a motion.
+struct KnownAxes {
+  std::vector<Eigen::Index> all, translation, rotation;
+};
+
+KnownAxes knownAxes(bool planar) {
+  if (planar) return {{0, 1, 5}, {0, 1}, {5}};
+  return {{0, 1, 2, 3, 4, 5}, {0, 1, 2}, {3, 4, 5}};
 }
 
 }  // namespace
 
 Nees neesOver(double interval_s, const EvaluationInput& input) {
-  const double inside_95 = chiSquareQuantile(6, 0.95);
+  const KnownAxes axes = knownAxes(input.planar);
   Nees nees;
-  double six = 0.0, translation = 0.0, rotation = 0.0, inside = 0.0;
+  nees.expected = static_cast<int>(axes.all.size());
+  const double inside_95 = chiSquareQuantile(nees.expected, 0.95);
+  double all = 0.0, translation = 0.0, rotation = 0.0, inside = 0.0;
   std::optional<std::size_t> from;
   std::optional<Eigen::Isometry3d> truth_from;
   for (std::size_t to = 0; to < input.frames.size(); ++to) {
@@ -39,10 +60,10 @@ Nees neesOver(double interval_s, const EvaluationInput& input) {
       const Eigen::Isometry3d truth = truth_from->inverse() * *truth_to;
       const Vector6d error = logMotion(estimate.inverse() * truth);
       const Matrix6d covariance = input.relative_covariance(*from, to) + truthNoise(input, estimate);
-      const double value = squared(error, covariance);
-      six += value;
-      translation += squared(error.head<3>(), covariance.topLeftCorner<3, 3>());
-      rotation += squared(error.tail<3>(), covariance.bottomRightCorner<3, 3>());
+      const double value = squared(error, covariance, axes.all);
+      all += value;
+      translation += squared(error, covariance, axes.translation);
+      rotation += squared(error, covariance, axes.rotation);
       inside += value <= inside_95 ? 1.0 : 0.0;
       ++nees.pairs;
     }
@@ -52,7 +73,7 @@ Nees neesOver(double interval_s, const EvaluationInput& input) {
   }
   if (nees.pairs == 0) return nees;
   const auto n = static_cast<double>(nees.pairs);
-  nees.mean = six / n;
+  nees.mean = all / n;
   nees.translation = translation / n;
   nees.rotation = rotation / n;
   nees.inside_95_percent = 100.0 * inside / n;

@@ -152,6 +152,7 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
 
 JsonObject toJson(const Nees& nees) {
   JsonObject json;
+  json.add("expected", nees.expected);
   json.add("mean", nees.mean);
   json.add("translation", nees.translation);
   json.add("rotation", nees.rotation);

@@ -109,12 +109,13 @@ std::string consistencyTable(const EvaluationSummary& s) {
   for (std::size_t k = 0; k < kNeesIntervals_s.size(); ++k) {
     const Nees& nees = s.nees[k];
     if (nees.pairs == 0) continue;
-    rows +=
-        row(fmt::format("NEES over {:g} s", kNeesIntervals_s[k]), number(nees.mean, 2, ""),
-            fmt::format(
-                "6 is expected; translation {:.2f}, rotation {:.2f} (3 each); {:.0f} % of {} pieces inside "
-                "the ellipsoid of 95 %",
-                nees.translation, nees.rotation, nees.inside_95_percent, nees.pairs));
+    rows += row(
+        fmt::format("NEES over {:g} s", kNeesIntervals_s[k]), number(nees.mean, 2, ""),
+        fmt::format(
+            "{} is expected; translation {:.2f} ({}), rotation {:.2f} ({}); {:.0f} % of {} pieces inside the "
+            "ellipsoid of 95 %",
+            nees.expected, nees.translation, nees.expected == 3 ? 2 : 3, nees.rotation,
+            nees.expected == 3 ? 1 : 3, nees.inside_95_percent, nees.pairs));
   }
   return rows.empty() ? "" : "<h2>Consistency of the covariances</h2>\n<table>\n" + rows + "</table>\n";
 }
@@ -178,7 +179,7 @@ std::optional<std::string> writeReport(const std::string& directory, const Evalu
                       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>Odometry: " +
                           htmlEscaped(summary.input) + "</title>\n<style>" + kStyle +
-                          "</style>\n</head>\n<body>\n<main>\n<h1>Visual odometry, evaluated</h1>\n"
+                          "</style>\n</head>\n<body>\n<main>\n<h1>Odometry, evaluated</h1>\n"
                           "<p class=\"what\"><code>" +
                           htmlEscaped(summary.input) + "</code> with <code>" + htmlEscaped(summary.config) +
                           "</code></p>\n" + tiles(summary, timing) + note + "<h2>Pictures</h2>\n" + pictures +

@@ -10,6 +10,7 @@ namespace stereo_nav::kinematics {
 namespace {
 
 constexpr double kRankThreshold = 1e-9;
+constexpr double kSameAxle = 0.02;  // fixed wheels that differ by less, as measured ones do, are on one axle
 
 Eigen::RowVector3d along(double direction_rad, const WheelParams& wheel) {
   const double c = std::cos(direction_rad);
@@ -23,7 +24,7 @@ Eigen::Matrix3d nullSpaceProjection(const Eigen::MatrixX3d& rows) {
   const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(rows, Eigen::ComputeFullV);
   Eigen::Matrix3d projection = Eigen::Matrix3d::Identity();
   for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i) {
-    if (svd.singularValues()(i) < kRankThreshold * svd.singularValues()(0)) continue;
+    if (svd.singularValues()(i) < kSameAxle * svd.singularValues()(0)) continue;
     projection -= svd.matrixV().col(i) * svd.matrixV().col(i).transpose();
   }
   return projection;
@@ -55,7 +56,7 @@ void Drive::checkDetermined() const {
   if (solver.eigenvalues()(0) > kRankThreshold * solver.eigenvalues()(2)) return;
   const Eigen::Vector3d free = solver.eigenvectors().col(0);
   throw ParameterError(
-      "drive: the " + std::to_string(size()) + " wheels do not determine the motion forward " +
+      "the " + std::to_string(size()) + " wheels do not determine the motion forward " +
       std::to_string(free.x()) + " m, left " + std::to_string(free.y()) + " m, turning " +
       std::to_string(free.z()) +
       " rad; most likely a wheel is missing, or positions or directions coincide: check wheel_1 to "

@@ -1,9 +1,5 @@
 #include "stereo_nav/ros/recording.h"
 
-#include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/Quaternion.h>
-#include <geometry_msgs/TransformStamped.h>
-#include <nav_msgs/Odometry.h>
 #include <rosbag/view.h>
 #include <tf2/exceptions.h>
 
@@ -12,11 +8,14 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "ros/bag_structure.h"
 #include "ros/judged_infos.h"
 #include "ros/recorded_depth.h"
 #include "ros/recorded_image.h"
+#include "ros/recorded_imu.h"
+#include "ros/recorded_poses.h"
 #include "ros/recorded_transforms.h"
 #include "ros/rig_topics.h"
 #include "ros/setup_checks.h"
@@ -29,25 +28,6 @@ namespace {
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-StampedPose toStampedPose(const ros::Time& stamp, const geometry_msgs::Pose& pose) {
-  geometry_msgs::Transform transform;
-  transform.translation.x = pose.position.x;
-  transform.translation.y = pose.position.y;
-  transform.translation.z = pose.position.z;
-  transform.rotation = pose.orientation;
-  return {stamp.toSec(), toIsometry(transform)};
-}
-
-void checkFinite(const ImuSample& sample, const std::string& topic) {
-  if (sample.isFinite()) return;
-  std::ostringstream message;
-  message.precision(15);
-  message
-      << topic << " holds a NaN or an infinity at t = " << sample.time_s
-      << " s; the IMU driver is at fault: repair the recording, or filter the topic out with `rosbag filter`";
-  throw InputError(message.str());
 }
 
 /// All three stamps of each message.
@@ -199,22 +179,9 @@ void Recording::readMessages() {
 void Recording::readImu() {
   if (!topics_.imu && !topics_.imu_quat) return;
   const std::string topic = topics_.imu ? *topics_.imu : *topics_.imu_quat;
-  order_.forEach(bag_, {topic}, [&](const rosbag::MessageInstance& message, const ros::Time& received) {
-    ImuSample sample;
-    if (const auto imu = message.instantiate<sensor_msgs::Imu>()) {
-      sample = toImuSample(*imu);
-      imu_frame_ = withoutSlash(imu->header.frame_id);
-    } else if (const auto q = message.instantiate<geometry_msgs::Quaternion>()) {
-      // The thesis' topic has no header; the time of arrival is the only stamp.
-      sample.time_s = received.toSec();
-      sample.q_world_imu = Eigen::Quaterniond(q->w, q->x, q->y, q->z);
-    } else {
-      throw InputError(path_ + ": " + topic + " is " + message.getDataType() +
-                       ", expected sensor_msgs/Imu or geometry_msgs/Quaternion");
-    }
-    checkFinite(sample, topic);
-    imu_.push_back(sample);
-  });
+  RecordedImu recorded = readRecordedImu(bag_, order_, path_, topic);
+  imu_ = std::move(recorded.samples);
+  imu_frame_ = std::move(recorded.frame);
   clock_.straighten(imu_, [](ImuSample& sample) -> double& { return sample.time_s; });
   std::stable_sort(imu_.begin(), imu_.end(),
                    [](const ImuSample& a, const ImuSample& b) { return a.time_s < b.time_s; });
@@ -289,22 +256,8 @@ Recording::GroundTruth Recording::groundTruth(const std::string& topic, bool req
     throw InputError(path_ + ": no ground truth topic " + topic + " (and no such file); the bag holds " +
                      topicList());
   }
-  GroundTruth truth;
-  order_.forEach(bag_, {*found}, [&](const rosbag::MessageInstance& message, const ros::Time&) {
-    if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) {
-      truth.trajectory.push_back(toStampedPose(odometry->header.stamp, odometry->pose.pose));
-      truth.body_frame = withoutSlash(odometry->child_frame_id);
-    } else if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>()) {
-      truth.trajectory.push_back(toStampedPose(pose->header.stamp, pose->pose));
-    } else if (const auto transform = message.instantiate<geometry_msgs::TransformStamped>()) {
-      truth.trajectory.push_back({transform->header.stamp.toSec(), toIsometry(transform->transform)});
-      truth.body_frame = withoutSlash(transform->child_frame_id);
-    } else {
-      throw InputError(
-          path_ + ": ground truth topic " + *found + " is " + message.getDataType() +
-          ", expected nav_msgs/Odometry, geometry_msgs/PoseStamped or geometry_msgs/TransformStamped");
-    }
-  });
+  RecordedPoses recorded = readRecordedPoses(bag_, order_, path_, *found);
+  GroundTruth truth{std::move(recorded.trajectory), std::move(recorded.body_frame)};
   clock_.straighten(truth.trajectory, [](StampedPose& pose) -> double& { return pose.time_s; });
   return truth;
 }

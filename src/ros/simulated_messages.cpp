@@ -130,6 +130,18 @@ sensor_msgs::Imu SimulatedMessages::imu(std::size_t index) const {
   return message;
 }
 
+WheelTicks SimulatedMessages::wheelTicks(std::size_t index) const {
+  const sim::SimulatedTicks& ticks = simulation_.wheels()[index];
+  WheelTicks message;
+  message.header.seq = static_cast<std::uint32_t>(index);
+  message.header.stamp = stamp(ticks.time_s);
+  message.header.frame_id = frames::kBase;
+  for (const auto& wheel : simulation_.trueWheels().wheels) message.names.push_back(wheel.name);
+  message.pulses = ticks.pulses;
+  message.steering_rad = ticks.steering_rad;
+  return message;
+}
+
 bool SimulatedMessages::hasAttitude() const {
   return !simulation_.imu().empty() && simulation_.imu().front().q_world_imu.has_value();
 }

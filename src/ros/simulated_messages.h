@@ -12,6 +12,7 @@
 
 #include "sim/simulation.h"
 #include "stereo_nav/StereoSync.h"
+#include "stereo_nav/WheelTicks.h"
 
 namespace stereo_nav::ros_io {
 
@@ -43,6 +44,8 @@ class SimulatedMessages {
   /// The thesis' `imu_quat`: attitude without a header, front-left-up.
   geometry_msgs::Quaternion imuQuaternion(std::size_t index) const;
   bool hasAttitude() const;
+  /// The counters of the wheels.
+  WheelTicks wheelTicks(std::size_t index) const;
   /// The robot passes way-point `index`: the stamp is the time of the passage, the point is the way-point in
   /// `odom`.
   geometry_msgs::PointStamped waypoint(std::size_t index) const;

@@ -49,6 +49,15 @@ class RandomStream {
 };
 
 /// The uses of random numbers; no two uses share a stream.
-enum class Stream : std::uint64_t { kTexture = 1, kClutter, kClock, kPixelNoise, kImu, kLight };
+enum class Stream : std::uint64_t {
+  kTexture = 1,
+  kClutter,
+  kClock,
+  kPixelNoise,
+  kImu,
+  kLight,
+  kWheelGeometry,
+  kWheelSlip
+};
 
 }  // namespace stereo_nav::sim

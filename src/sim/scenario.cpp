@@ -182,6 +182,7 @@ void Scenario::describe(ParameterVisitor& visitor) {
   visitSection(visitor, "left", left);
   visitSection(visitor, "right", right);
   visitSection(visitor, "imu", imu);
+  visitSection(visitor, "wheels", wheels);
 }
 
 Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides) {

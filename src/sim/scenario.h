@@ -9,6 +9,7 @@
 #include "sim/imu_model.h"
 #include "sim/scene.h"
 #include "sim/trajectory.h"
+#include "sim/wheel_model.h"
 
 namespace stereo_nav::sim {
 
@@ -45,8 +46,10 @@ struct Scenario {
   SensorParams sensor;
   CameraResponse left, right;
   ImuParams imu;
+  WheelModelParams wheels;
+  kinematics::DriveParams drive;  ///< nominal wheels, of the rig file; none: no wheels are simulated
 
-  /// All but the lists.
+  /// All but the lists and the drive.
   void describe(ParameterVisitor& visitor);
 };
 

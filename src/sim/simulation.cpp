@@ -36,11 +36,13 @@ Simulation::Simulation(const Scenario& scenario, const StereoCalibrationPair& ca
       trajectory_(scenario.path, scenario.motion),
       pairs_(pairInstants(scenario.timing, trajectory_.duration_s(), seed)),
       imu_(simulateImu(scenario.imu, trajectory_, trajectory_.duration_s(), seed)),
+      true_drive_(trueDrive(scenario.wheels, scenario.drive, seed)),
       left_(makeCamera(Side::kLeft, scaled(calibration.left, scenario.rig.image_scale))),
       right_(makeCamera(Side::kRight, scaled(calibration.right, scenario.rig.image_scale))) {
   for (const Side side : {Side::kLeft, Side::kRight}) {
     (side == Side::kLeft ? left_ : right_)->exposures = planned(side);
   }
+  if (!true_drive_.wheels.empty()) wheels_ = simulateWheels(scenario.wheels, true_drive_, trajectory_, seed);
 }
 
 std::unique_ptr<Simulation::Camera> Simulation::makeCamera(Side side,

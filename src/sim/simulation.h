@@ -36,6 +36,9 @@ class Simulation {
   const Trajectory& trajectory() const { return trajectory_; }
   const std::vector<PairInstants>& pairs() const { return pairs_; }
   const std::vector<ImuSample>& imu() const { return imu_; }
+  /// The wheels as they truly are; none where the scenario has no drive.
+  const kinematics::DriveParams& trueWheels() const { return true_drive_; }
+  const std::vector<SimulatedTicks>& wheels() const { return wheels_; }
   /// Exposure time of an image, middle of its middle row.
   double imageTime(Side side, std::size_t pair) const;
 
@@ -75,6 +78,8 @@ class Simulation {
   Trajectory trajectory_;
   std::vector<PairInstants> pairs_;
   std::vector<ImuSample> imu_;
+  kinematics::DriveParams true_drive_;
+  std::vector<SimulatedTicks> wheels_;
   std::unique_ptr<Camera> left_, right_;
 };
 

@@ -43,15 +43,18 @@ struct EvaluationInput {
   /// Covariance of the pose of base_link in frame `to` relative to frame `from`, axes of base_link in `to`:
   /// m, rad. Empty where nothing is known.
   std::function<Matrix6d(std::size_t from, std::size_t to)> relative_covariance;
+  bool planar =
+      false;  ///< the odometry knows x, y and yaw alone: only these are held against the covariances
 };
 
 /// Whether covariances are as large as the errors: normalised estimation errors squared of relative poses
 /// over disjoint pieces of equal duration.
 struct Nees {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< without a piece
-  double mean = kUnknown;                                                       ///< 6 is expected
-  double translation = kUnknown;        ///< of the translation alone, 3 is expected
-  double rotation = kUnknown;           ///< of the rotation alone, 3 is expected
+  int expected = 6;                     ///< what `mean` is of right covariances; 3 in the plane
+  double mean = kUnknown;               ///< of all axes
+  double translation = kUnknown;        ///< of the translation alone, 3 is expected; 2 in the plane
+  double rotation = kUnknown;           ///< of the rotation alone, 3 is expected; 1 in the plane
   double inside_95_percent = kUnknown;  ///< pieces whose error lies inside the ellipsoid of 95 %, percent
   std::size_t pairs = 0;                ///< pieces
 };

@@ -17,6 +17,8 @@ constexpr const char* kSync = "camera/sync";                            ///< ste
 constexpr const char* kImu = "imu/data";                                ///< sensor_msgs/Imu
 /// The thesis' topic: orientation without a header.
 constexpr const char* kImuQuaternion = "imu_quat";
+constexpr const char* kWheelTicks = "wheel_ticks";         ///< stereo_nav/WheelTicks
+constexpr const char* kWheelOdometry = "wheel/odom";       ///< nav_msgs/Odometry by the wheels
 constexpr const char* kGroundTruth = "ground_truth/odom";  ///< nav_msgs/Odometry
 /// In simulated recordings: the moments at which the robot passes the way-points of its path.
 constexpr const char* kWaypoint = "ground_truth/waypoint";

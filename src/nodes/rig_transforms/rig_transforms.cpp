@@ -6,6 +6,7 @@
 
 #include "core/rig_file.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
+#include "odometry/wheel/wheel_odometry_params.h"
 #include "ros/capture_setup.h"
 #include "ros/imu_bridge_params.h"
 #include "ros/node_program.h"
@@ -23,6 +24,8 @@ void checkSections(const ros::NodeHandle& private_handle) {
   ros_io::readParameters({ros_io::rigSource(private_handle, rig_sections::kImu)}, imu);
   ros_io::DisparityParams disparity;
   ros_io::readParameters({ros_io::rigSource(private_handle, rig_sections::kDisparity)}, disparity);
+  const RigFile rig = RigFile::load(private_handle.param<std::string>("rig", ""));
+  if (!rig.section(rig_sections::kDrive).IsNull()) odometry::loadWheelOdometry("", rig);
 }
 
 geometry_msgs::TransformStamped toMessage(const std::string& parent, const std::string& child,

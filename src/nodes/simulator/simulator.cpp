@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "core/rig_file.h"
+#include "kinematics/drive_file.h"
 #include "nodes/simulator/simulator_node.h"
 #include "ros/calibration_url.h"
 #include "ros/capture_setup.h"
@@ -14,7 +15,7 @@
 namespace stereo_nav::nodes {
 namespace {
 
-/// The parts of a rig file that the simulated devices use: calibration and mounting.
+/// The parts of a rig file that the simulated devices use: calibration, mounting and wheels.
 struct SimulatedRig {
   sim::StereoCalibrationPair calibration;
   Eigen::Isometry3d T_base_imu = Eigen::Isometry3d::Identity();
@@ -33,13 +34,15 @@ auto loadCalibration(const std::string& url, const std::string& side) {
 }
 
 /// Without `~rig`, the thesis' rig with its cameras at the poses of the scenario.
-SimulatedRig readRig(const ros::NodeHandle& private_node, sim::RigParams& cameras) {
+SimulatedRig readRig(const ros::NodeHandle& private_node, sim::Scenario& scenario) {
   const auto rig = private_node.param<std::string>("rig", "");
   if (rig.empty()) return {sim::loadStereoCalibration(ros_io::thesisCalibrationFolder())};
   ros_io::CaptureSetup setup;
   setup.read({ros_io::rigSource(private_node, rig_sections::kCameras)});
-  const Mounting mounting = RigFile::load(rig).mounting();
-  cameras.camera = mounting.camera;
+  const RigFile file = RigFile::load(rig);
+  const Mounting mounting = file.mounting();
+  scenario.rig.camera = mounting.camera;
+  if (!file.section(rig_sections::kDrive).IsNull()) scenario.drive = kinematics::readDrive(file);
   return {{loadCalibration(setup.params.left.calibration, "left"),
            loadCalibration(setup.params.right.calibration, "right")},
           mounting.imu.T_base_sensor()};
@@ -61,7 +64,7 @@ int run() {
       params);
   sim::Scenario scenario =
       sim::loadScenario(ros_io::scenarioFile(params.scenario), splitSettings(params.settings));
-  const SimulatedRig rig = readRig(private_node, scenario.rig);
+  const SimulatedRig rig = readRig(private_node, scenario);
   const sim::Simulation simulation(scenario, rig.calibration, static_cast<std::uint64_t>(params.seed));
   std::unique_ptr<ros_io::ImageProcLoader> image_proc;
   if (params.load_image_proc) {

@@ -35,6 +35,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle& node, const sim::Simulation& simul
     tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
     tf_static_.publish(messages_.staticTransforms());
   }
+  if (!simulation_.wheels().empty())
+    wheel_ticks_ = node.advertise<WheelTicks>(topics::kWheelTicks, 10 * kQueue);
   updater_.setHardwareID("none");
   updater_.add("simulated sensors", this, &SimulatorNode::fillStatus);
   timer_ =
@@ -88,6 +90,10 @@ void SimulatorNode::publishUntil(double time_s) {
   for (; next_imu_ < imu.size() && imu[next_imu_].time_s <= time_s; ++next_imu_) {
     imu_.publish(messages_.imu(next_imu_));
     if (messages_.hasAttitude()) imu_quaternion_.publish(messages_.imuQuaternion(next_imu_));
+  }
+  const auto& wheels = simulation_.wheels();
+  for (; next_ticks_ < wheels.size() && wheels[next_ticks_].time_s <= time_s; ++next_ticks_) {
+    wheel_ticks_.publish(messages_.wheelTicks(next_ticks_));
   }
   const auto& waypoints = simulation_.trajectory().waypoints();
   for (; next_waypoint_ < waypoints.size() && waypoints[next_waypoint_].time_s <= time_s; ++next_waypoint_) {

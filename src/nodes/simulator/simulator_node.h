@@ -53,11 +53,13 @@ class SimulatorNode {
   ros_io::SimulatedMessages messages_;
   image_transport::ImageTransport transport_;
   image_transport::Publisher left_image_, right_image_;
-  ros::Publisher left_info_, right_info_, sync_, imu_, imu_quaternion_, ground_truth_, waypoint_, tf_static_;
+  ros::Publisher left_info_, right_info_, sync_, imu_, imu_quaternion_, ground_truth_, waypoint_, tf_static_,
+      wheel_ticks_;
   std::atomic<double> rendering_s_{0.0};  ///< how long the last pair took
   std::deque<std::future<ros_io::PairMessages>> rendering_;
   std::size_t next_to_render_ = 0;
   std::size_t next_imu_ = 0;
+  std::size_t next_ticks_ = 0;
   std::size_t next_waypoint_ = 0;
   std::atomic<std::uint64_t> pairs_published_{0}, pairs_late_{0};
   std::uint64_t pairs_late_reported_ = 0;

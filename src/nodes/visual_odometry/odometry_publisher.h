@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <string>
 
-#include "nodes/visual_odometry/odom_transform_publisher.h"
 #include "nodes/visual_odometry/odometry_session.h"
+#include "ros/odom_transform_publisher.h"
 #include "stereo_nav/VoStatus.h"
 
 namespace stereo_nav::nodes {
@@ -46,7 +46,7 @@ class OdometryPublisher {
   ros::Publisher features_publisher_;
   image_transport::ImageTransport image_transport_;
   image_transport::Publisher debug_publisher_;
-  OdomTransformPublisher transform_publisher_;
+  ros_io::OdomTransformPublisher transform_publisher_;
   nav_msgs::Path path_;
 };
 

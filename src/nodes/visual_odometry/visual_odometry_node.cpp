@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ros/parameter_server.h"
+#include "ros/set_pose_request.h"
 #include "stereo_nav/ros/conversions.h"
 
 namespace stereo_nav::nodes {
@@ -107,23 +108,11 @@ bool VisualOdometryNode::handleReset(std_srvs::Empty::Request&, std_srvs::Empty:
 }
 
 bool VisualOdometryNode::handleSetPose(SetPose::Request& request, SetPose::Response& response) {
-  const auto& pose = request.pose.pose.pose;
-  const Eigen::Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
-  const Eigen::Vector3d position(pose.position.x, pose.position.y, pose.position.z);
-  const Matrix6d covariance =
-      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(request.pose.pose.covariance.data());
-  constexpr double kUnitNorm = 0.01;
-  const std::string& frame = request.pose.header.frame_id;
-  if (!frame.empty() && frame != params_.odom_frame) {
-    response.message = "the pose is in frame '" + frame + "', it must be in '" + params_.odom_frame + "'";
-  } else if (!position.allFinite() || !covariance.allFinite() || !(std::abs(q.norm() - 1.0) < kUnitNorm)) {
-    response.message = "position and covariance must be numbers, the orientation a quaternion of norm 1";
-  } else {
-    Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
-    T_odom_base.linear() = q.normalized().toRotationMatrix();
-    T_odom_base.translation() = position;
+  const ros_io::SetPoseRequest pose = ros_io::readSetPose(request, params_.odom_frame);
+  response.message = pose.refusal;
+  if (pose.refusal.empty()) {
     const std::lock_guard<std::mutex> lock(session_mutex_);
-    response.success = static_cast<std::uint8_t>(session_.setPose(T_odom_base, covariance));
+    response.success = static_cast<std::uint8_t>(session_.setPose(pose.T_odom_base, pose.covariance));
     if (response.success == 0) response.message = "no odometry yet: it still waits for its inputs";
   }
   if (response.success == 0) ROS_ERROR_STREAM(name_ << ": vo/set_pose refused: " << response.message);

@@ -3,6 +3,11 @@
 #include "core/planar_motion.h"
 
 namespace stereo_nav::odometry {
+namespace {
+
+constexpr Eigen::Index kPlanarAxes[] = {0, 1, 5};  // x, y and yaw among those of a pose in space
+
+}  // namespace
 
 PlanarCovariance::PlanarCovariance(std::size_t wheels, const ConstantErrors& errors) : errors_(errors) {
   with_reading_.setZero(3, static_cast<Eigen::Index>(wheels));
@@ -16,9 +21,9 @@ void PlanarCovariance::reset(const Eigen::Matrix3d& covariance) {
   drift_gain_.setZero();
 }
 
-void PlanarCovariance::append(const WheelInterval& interval, const IntervalMotion& motion, double duration_s,
-                              const std::vector<double>& slip_variance_m2,
-                              const std::vector<double>& reading_variance_m2) {
+void PlanarCovariance::append(const WheelStep& step, const std::vector<double>& reading_variance_m2) {
+  const WheelInterval& interval = step.interval;
+  const IntervalMotion& motion = step.motion;
   // e_end = F e_start + J d, with J the right Jacobian of exp at the motion (Sola et al. 2018, eq. 67 and
   // 83).
   const Eigen::Matrix3d F = adjointPlanar(expPlanar(-motion.motion));
@@ -34,17 +39,38 @@ void PlanarCovariance::append(const WheelInterval& interval, const IntervalMotio
     const Eigen::Vector3d g = gain.col(i);
     // The distance is the new reading minus the last one, whose error the pose may hold already.
     const Eigen::Matrix3d shared = F * with_reading_.col(i) * g.transpose();
-    random_ += (slip_variance_m2[wheel] + 2.0 * reading_variance_m2[wheel]) * g * g.transpose() - shared -
-               shared.transpose();
+    random_ += (step.slip_variance_m2[wheel] + 2.0 * reading_variance_m2[wheel]) * g * g.transpose() -
+               shared - shared.transpose();
     with_reading_.col(i) = reading_variance_m2[wheel] * g;
     scale_gain_.col(i) = (F * scale_gain_.col(i)).eval() + interval.distance_m[wheel] * g;
   }
-  drift_gain_ = (F * drift_gain_).eval() + duration_s * yaw_gain;
+  drift_gain_ = (F * drift_gain_).eval() + step.duration_s * yaw_gain;
 }
 
 Eigen::Matrix3d PlanarCovariance::covariance() const {
   return random_ + errors_.scale * errors_.scale * scale_gain_ * scale_gain_.transpose() +
          errors_.yaw_drift_rad_per_s * errors_.yaw_drift_rad_per_s * drift_gain_ * drift_gain_.transpose();
+}
+
+Eigen::Matrix3d inAxesOf(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = T_odom_base.linear();
+  return R * covariance * R.transpose();
+}
+
+Matrix6d spatialCovariance(const Eigen::Matrix3d& planar) {
+  constexpr double kUnknown = 1e6;
+  Matrix6d spatial = kUnknown * Matrix6d::Identity();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j) spatial(kPlanarAxes[i], kPlanarAxes[j]) = planar(i, j);
+  return spatial;
+}
+
+Eigen::Matrix3d planarCovariance(const Matrix6d& spatial) {
+  Eigen::Matrix3d planar;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j) planar(i, j) = spatial(kPlanarAxes[i], kPlanarAxes[j]);
+  return planar;
 }
 
 }  // namespace stereo_nav::odometry

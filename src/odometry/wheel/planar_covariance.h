@@ -1,11 +1,20 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "odometry/wheel/interval_motion.h"
+#include "stereo_nav/core/lie.h"
 
 namespace stereo_nav::odometry {
+
+/// One interval with what was found of it.
+struct WheelStep {
+  WheelInterval interval;
+  IntervalMotion motion;
+  double duration_s = 0.0;
+  std::vector<double> slip_variance_m2;  ///< of each wheel
+};
 
 /// Standard deviations of the errors that stay the same on the whole way.
 struct ConstantErrors {
@@ -28,9 +37,8 @@ class PlanarCovariance {
   /// Starts anew from a pose with this covariance (axes of the base).
   void reset(const Eigen::Matrix3d& covariance);
 
-  /// `slip_variance_m2` and `reading_variance_m2` of each wheel, the latter of one reading.
-  void append(const WheelInterval& interval, const IntervalMotion& motion, double duration_s,
-              const std::vector<double>& slip_variance_m2, const std::vector<double>& reading_variance_m2);
+  /// `reading_variance_m2` of each wheel, of one reading.
+  void append(const WheelStep& step, const std::vector<double>& reading_variance_m2);
 
   Eigen::Matrix3d covariance() const;
 
@@ -41,5 +49,14 @@ class PlanarCovariance {
   WheelColumns scale_gain_;    ///< d pose / d relative error of each radius
   Eigen::Vector3d drift_gain_ = Eigen::Vector3d::Zero();
 };
+
+/// The covariance of a pose, given in the axes of the base, in those of odom.
+Eigen::Matrix3d inAxesOf(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance);
+
+/// The covariance of a pose in the plane (x, y, yaw) as one of a pose in space (x, y, z, and rotations about
+/// them): wheels say nothing about the other three, whose variances are 1e6.
+Matrix6d spatialCovariance(const Eigen::Matrix3d& planar);
+/// The part of such a covariance that lies in the plane.
+Eigen::Matrix3d planarCovariance(const Matrix6d& spatial);
 
 }  // namespace stereo_nav::odometry

@@ -5,6 +5,7 @@
 
 #include "core/angles.h"
 #include "core/planar_motion.h"
+#include "odometry/wheel/pulse_counter.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/parameters.h"
 
@@ -13,17 +14,9 @@ namespace {
 
 constexpr double kSlipMemory_s = 1.0;
 
-/// Difference of two readings of a counter that wraps, taken the short way round.
-std::int64_t counted(std::int64_t from, std::int64_t to, int bits) {
-  const std::uint64_t period = std::uint64_t{1} << bits;
-  const std::uint64_t difference =
-      (static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from)) & (period - 1);
-  if (difference < period / 2) return static_cast<std::int64_t>(difference);
-  return -static_cast<std::int64_t>(period - difference);
-}
-
 WheelOdometryParams checked(const WheelOdometryParams& params) {
   validateParameters(params, "wheel odometry");
+  validateParameters(params.drive, "drive");
   return params;
 }
 
@@ -33,8 +26,8 @@ WheelOdometry::WheelOdometry(const WheelOdometryParams& params)
     : params_(checked(params)),
       drive_(params_.drive),
       encoders_(drive_),
-      covariance_(drive_.size(), {params_.scale_sigma, params_.yaw_drift_sigma_rad_per_s}),
-      slip_variance_m2_(drive_.size(), 0.0) {
+      covariance_(drive_.size(), {params_.scale_sigma, params_.yaw_drift_sigma_rad_per_s}) {
+  step_.slip_variance_m2.assign(drive_.size(), 0.0);
   for (const auto& wheel : params_.drive.wheels)
     reading_variance_m2_.push_back(std::pow(params_.pulse_sigma * wheel.metresPerPulse(), 2));
 }
@@ -64,28 +57,26 @@ void WheelOdometry::check(const WheelSample& sample) const {
   }
 }
 
-WheelInterval WheelOdometry::intervalTo(const WheelSample& sample) {
-  const double duration_s = sample.time_s - last_->time_s;
-  WheelInterval interval;
+void WheelOdometry::measureInterval(const WheelSample& sample) {
+  WheelInterval& interval = step_.interval;
+  step_.duration_s = sample.time_s - last_->time_s;
   interval.distance_m.resize(drive_.size());
   interval.variance_m2.resize(drive_.size());
   for (std::size_t i = 0; i < drive_.size(); ++i) {
-    const auto pulses = counted(last_->pulses[i], sample.pulses[i], params_.counter_bits);
+    const auto pulses = pulsesBetween(last_->pulses[i], sample.pulses[i], params_.counter_bits);
     interval.distance_m[i] = static_cast<double>(pulses) * params_.drive.wheels[i].metresPerPulse();
-    slip_variance_m2_[i] =
+    step_.slip_variance_m2[i] =
         slip_factor_ * params_.slip_sigma_m * params_.slip_sigma_m * std::abs(interval.distance_m[i]);
-    interval.variance_m2[i] = slip_variance_m2_[i] + 2.0 * reading_variance_m2_[i];
+    interval.variance_m2[i] = step_.slip_variance_m2[i] + 2.0 * reading_variance_m2_[i];
   }
-  if (!sample.steering_rad.empty()) {
-    interval.steering_rad.resize(drive_.size());
-    for (std::size_t i = 0; i < drive_.size(); ++i) {
-      const double from = last_->steering_rad[i];
-      interval.steering_rad[i] = from + 0.5 * wrapRadians(sample.steering_rad[i] - from);
-    }
+  interval.steering_rad.resize(sample.steering_rad.size());
+  for (std::size_t i = 0; i < sample.steering_rad.size(); ++i) {
+    const double from = last_->steering_rad[i];
+    interval.steering_rad[i] = from + 0.5 * wrapRadians(sample.steering_rad[i] - from);
   }
+  interval.yaw_rad.reset();
   if (sample.yaw_rad && last_->yaw_rad) interval.yaw_rad = wrapRadians(*sample.yaw_rad - *last_->yaw_rad);
-  interval.yaw_variance_rad2 = params_.yaw_sigma_rad * params_.yaw_sigma_rad * duration_s;
-  return interval;
+  interval.yaw_variance_rad2 = params_.yaw_sigma_rad * params_.yaw_sigma_rad * step_.duration_s;
 }
 
 void WheelOdometry::compose(const IntervalMotion& motion) {
@@ -100,17 +91,17 @@ void WheelOdometry::compose(const IntervalMotion& motion) {
 WheelOdometryResult WheelOdometry::process(const WheelSample& sample) {
   check(sample);
   if (last_) {
-    const double duration_s = sample.time_s - last_->time_s;
-    const WheelInterval interval = intervalTo(sample);
-    const IntervalMotion motion = solveInterval(drive_, interval);
-    covariance_.append(interval, motion, duration_s, slip_variance_m2_, reading_variance_m2_);
+    measureInterval(sample);
+    step_.motion = solveInterval(drive_, step_.interval);
+    const IntervalMotion& motion = step_.motion;
+    covariance_.append(step_, reading_variance_m2_);
     compose(motion);
     if (motion.redundancy > 0) {
       const double seen = slip_factor_ * motion.squared_residual / motion.redundancy;
-      contradiction_ += std::min(1.0, duration_s / kSlipMemory_s) * (seen - contradiction_);
+      contradiction_ += std::min(1.0, step_.duration_s / kSlipMemory_s) * (seen - contradiction_);
       slip_factor_ = std::max(1.0, contradiction_);
     }
-    encoders_.add(interval, duration_s);
+    encoders_.add(step_.interval, step_.duration_s);
   }
   last_ = sample;
   return resultAt(sample.time_s);
@@ -128,8 +119,27 @@ WheelOdometryResult WheelOdometry::resultAt(double time_s) {
   if (marks_.size() > 1) {
     const double window_s = time_s - marks_.front().time_s;
     result.twist = logPlanar(marks_.front().T_odom_base.inverse() * T_odom_base_) / window_s;
+    result.twist_covariance = twistCovariance(window_s);
   }
   return result;
+}
+
+/// As if all of the window were like its last interval.
+Eigen::Matrix3d WheelOdometry::twistCovariance(double window_s) const {
+  const double intervals = window_s / step_.duration_s;
+  const IntervalMotion& motion = step_.motion;
+  Eigen::Matrix3d covariance = intervals * motion.sideways_covariance;
+  for (Eigen::Index i = 0; i < motion.gain.cols(); ++i) {
+    const auto wheel = static_cast<std::size_t>(i);
+    const double scale_error_m = params_.scale_sigma * intervals * step_.interval.distance_m[wheel];
+    const double variance_m2 = intervals * step_.slip_variance_m2[wheel] + 2.0 * reading_variance_m2_[wheel] +
+                               scale_error_m * scale_error_m;
+    covariance += variance_m2 * motion.gain.col(i) * motion.gain.col(i).transpose();
+  }
+  if (step_.interval.yaw_rad)
+    covariance +=
+        intervals * step_.interval.yaw_variance_rad2 * motion.yaw_gain * motion.yaw_gain.transpose();
+  return covariance / (window_s * window_s);
 }
 
 }  // namespace stereo_nav::odometry

@@ -28,6 +28,7 @@ struct WheelOdometryResult {
   Eigen::Isometry2d T_odom_base = Eigen::Isometry2d::Identity();
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();  ///< x, y (m), yaw (rad) in the axes of the base
   kinematics::Twist twist = kinematics::Twist::Zero();        ///< mean over the window, axes of the base
+  Eigen::Matrix3d twist_covariance = Eigen::Matrix3d::Zero();  ///< of it
   double slip = 1.0;  ///< root mean square of the normalised contradictions of the last second; 1 is expected
   std::string problem;  ///< an encoder that is reversed, swapped or dead, with the remedy; empty if none
 };
@@ -49,6 +50,11 @@ class WheelOdometry {
   /// Sets the pose at the last sample; `covariance` in the axes of the base.
   void setPose(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance);
 
+  /// The interval that the last sample ended; empty before the second sample.
+  const WheelStep& lastStep() const { return step_; }
+  /// Of one reading of each counter.
+  const std::vector<double>& readingVariance_m2() const { return reading_variance_m2_; }
+
  private:
   struct Mark {
     double time_s;
@@ -56,9 +62,10 @@ class WheelOdometry {
   };
 
   void check(const WheelSample& sample) const;
-  WheelInterval intervalTo(const WheelSample& sample);
+  void measureInterval(const WheelSample& sample);
   void compose(const IntervalMotion& motion);
   WheelOdometryResult resultAt(double time_s);
+  Eigen::Matrix3d twistCovariance(double window_s) const;
 
   WheelOdometryParams params_;
   kinematics::Drive drive_;
@@ -66,7 +73,7 @@ class WheelOdometry {
   PlanarCovariance covariance_;
   std::optional<WheelSample> last_;
   Eigen::Isometry2d T_odom_base_ = Eigen::Isometry2d::Identity();
-  std::vector<double> slip_variance_m2_;     ///< of each wheel in the last interval
+  WheelStep step_;                           ///< the last interval
   std::vector<double> reading_variance_m2_;  ///< of each counter's reading
   double contradiction_ =
       1.0;  ///< running mean of the square that wheels contradict each other by; 1 is expected

@@ -1,9 +1,11 @@
 #include "odometry/wheel/wheel_odometry_params.h"
 
+#include "kinematics/drive_file.h"
+#include "stereo_nav/core/parameters.h"
+
 namespace stereo_nav::odometry {
 
 void WheelOdometryParams::describe(ParameterVisitor& visitor) {
-  visitSection(visitor, "drive", drive);
   visitor.integer("counter_bits", counter_bits, {8, 63}, "bits",
                   "width of the pulse counters, after which they wrap");
   visitor.real("pulse_sigma", pulse_sigma, {1e-3, 100.0}, "pulses",
@@ -21,6 +23,15 @@ void WheelOdometryParams::describe(ParameterVisitor& visitor) {
       "as_published", as_published,
       "turn each interval's motion by the yaw at its start, as the swerve robot of 2024 does, instead of "
       "following the arc");
+}
+
+WheelOdometryParams loadWheelOdometry(const std::string& config_path, const RigFile& rig) {
+  WheelOdometryParams params;
+  if (!config_path.empty()) readParameters(loadYamlFile(config_path), config_path, params);
+  readParameters(rig.section(rig_sections::kWheelOdometry), rig.sectionName(rig_sections::kWheelOdometry),
+                 params);
+  params.drive = kinematics::readDrive(rig);
+  return params;
 }
 
 }  // namespace stereo_nav::odometry

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+
+#include "core/rig_file.h"
 #include "kinematics/drive_params.h"
 
 namespace stereo_nav::odometry {
@@ -16,7 +19,12 @@ struct WheelOdometryParams {
   double speed_window_s = 0.1;
   bool as_published = false;
 
+  /// All but the drive, which has a section of its own in the rig file.
   void describe(ParameterVisitor& visitor);
 };
+
+/// Parameters from a file like config/wheel.yaml (none where its path is empty), overlaid by the sections
+/// `wheel_odometry` and `drive` of the rig file. Throws ParameterError.
+WheelOdometryParams loadWheelOdometry(const std::string& config_path, const RigFile& rig);
 
 }  // namespace stereo_nav::odometry

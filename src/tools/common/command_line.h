@@ -6,6 +6,7 @@
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace stereo_nav::tools {
 
@@ -30,19 +31,27 @@ inline boost::program_options::typed_value<double>* numberOption(double& variabl
   return boost::program_options::value(&variable)->default_value(variable, fmt::format("{}", variable));
 }
 
+/// How many arguments without dashes a program takes.
+enum class Positional { kOne, kMany };
+
 /// Fills `values`, and the variables that `visible`, with an option `help`, is bound to. `positional`: name
-/// under which the one argument without dashes is stored; empty where there is none. False when help was
-/// asked for: it is printed then.
+/// under which the argument without dashes is stored, or with kMany all of them as a list; empty where there
+/// is none. False when help was asked for: it is printed then.
 inline bool parseCommandLine(int argc, char** argv,
                              const boost::program_options::options_description& visible,
-                             const std::string& positional, boost::program_options::variables_map& values) {
+                             const std::string& positional, boost::program_options::variables_map& values,
+                             Positional count = Positional::kOne) {
   namespace po = boost::program_options;
   po::options_description all;
   all.add(visible);
   po::positional_options_description positions;
   if (!positional.empty()) {
-    all.add_options()(positional.c_str(), po::value<std::string>());
-    positions.add(positional.c_str(), 1);
+    if (count == Positional::kMany) {
+      all.add_options()(positional.c_str(), po::value<std::vector<std::string>>());
+    } else {
+      all.add_options()(positional.c_str(), po::value<std::string>());
+    }
+    positions.add(positional.c_str(), count == Positional::kMany ? -1 : 1);
   }
   po::store(po::command_line_parser(argc, argv).options(all).positional(positions).run(), values);
   if (values.count("help") != 0) {

@@ -16,6 +16,7 @@
 #include "tools/common/program.h"
 #include "tools/evaluate/evaluate_options.h"
 #include "tools/evaluate/evaluate_run.h"
+#include "tools/evaluate/wheel_run.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -69,8 +70,19 @@ void printLosses(const std::vector<eval::Loss>& losses) {
   if (losses.size() > kShown) std::printf("  and %zu more losses, see report.html\n", losses.size() - kShown);
 }
 
-void printSummary(const eval::Evaluation& evaluation, const eval::TimingSummary& timing,
-                  std::size_t unpaired) {
+/// Of the longest pieces that there are.
+void printConsistency(const eval::EvaluationSummary& summary) {
+  for (std::size_t k = eval::kNeesIntervals_s.size(); k-- > 0;) {
+    const eval::Nees& nees = summary.nees[k];
+    if (nees.pairs == 0) continue;
+    std::printf("  NEES over %-19g %.3g, %d expected (%zu pieces)\n", eval::kNeesIntervals_s[k], nees.mean,
+                nees.expected, nees.pairs);
+    return;
+  }
+}
+
+void printSummary(const eval::Evaluation& evaluation, const eval::TimingSummary& timing, std::size_t unpaired,
+                  EvaluatedMethod method) {
   const eval::EvaluationSummary& summary = evaluation.summary;
   std::printf("%s with %s\n", summary.input.c_str(), summary.config.c_str());
   std::printf("  %-28s %zu, %zu lost\n", "frames", summary.frames, summary.frames_lost);
@@ -79,6 +91,11 @@ void printSummary(const eval::Evaluation& evaluation, const eval::TimingSummary&
     std::printf("  %-28s %zu (no partner within half a period)\n", "images without a pair", unpaired);
   printValue("path", summary.path_length_m, "m");
   printErrors(summary);
+  if (method == EvaluatedMethod::kWheel) {
+    printConsistency(summary);
+    std::printf("  %-28s %.2f us median\n", "odometry per reading", 1e3 * timing.median_ms);
+    return;
+  }
   std::printf("  %-28s %.1f features, %.1f inliers\n", "mean per frame", summary.features_mean,
               summary.inliers_mean);
   std::printf("  %-28s %.2f ms median, %.2f ms p95\n", "odometry per frame", timing.median_ms, timing.p95_ms);
@@ -99,7 +116,7 @@ int writeResults(const EvaluateOptions& options, EvaluationRun run) {
   writeFileAtomically(folder + "frames.csv", eval::toCsv(evaluation.frames));
   writeFileAtomically(folder + "timing.json", eval::toJson(timing));
   const auto warning = eval::writeReport(options.output, evaluation, run.input, timing);
-  printSummary(evaluation, timing, run.unpaired_images);
+  printSummary(evaluation, timing, run.unpaired_images, options.method);
   for (const std::string& note : run.input.notes) std::fprintf(stderr, "evaluate: note: %s\n", note.c_str());
   if (warning) std::fprintf(stderr, "evaluate: %s\n", warning->c_str());
   std::printf("results in %s\n", options.output.c_str());
@@ -116,7 +133,8 @@ int run(int argc, char** argv) {
   const auto options = parseEvaluateOptions(argc, argv);
   if (!options) return 0;
   { const AtomicFile writable(options->output + "/summary.json"); }  // before the work, not after it
-  return writeResults(*options, runEvaluation(*options, showProgress));
+  const bool wheel = options->method == EvaluatedMethod::kWheel;
+  return writeResults(*options, wheel ? runWheelEvaluation(*options) : runEvaluation(*options, showProgress));
 }
 
 }  // namespace

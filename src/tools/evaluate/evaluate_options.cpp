@@ -26,6 +26,22 @@ void checkValues(const EvaluateOptions& options) {
   if (options.repeat < 1) throw InputError("--repeat must be 1 or more");
 }
 
+void readMethod(const po::variables_map& values, EvaluateOptions& options) {
+  const auto method = values["method"].as<std::string>();
+  if (method != "visual" && method != "wheel")
+    throw InputError("--method must be visual or wheel, not '" + method + "'");
+  const bool wheel = method == "wheel";
+  options.method = wheel ? EvaluatedMethod::kWheel : EvaluatedMethod::kVisual;
+  if (wheel != (values.count("rig") != 0))
+    throw InputError(wheel ? "--method wheel needs --rig FILE, a rig file with the section drive"
+                           : "--rig is for --method wheel; the cameras' mounting is read from the bag");
+  if (wheel) options.rig = values["rig"].as<std::string>();
+  const std::string config = values.count("config") != 0 ? values["config"].as<std::string>()
+                             : wheel                     ? "wheel.yaml"
+                                                         : "vo.yaml";
+  options.config = ros_io::configFile(config);
+}
+
 }  // namespace
 
 std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
@@ -35,8 +51,13 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       "Runs the odometry on a recording as fast as it can and measures it against ground truth."));
   visible.add_options()        //
       ("help,h", "this text")  //
-      ("config", po::value<std::string>()->default_value("vo.yaml"),
-       "parameters of the odometry: a path, or a file of the package's config folder")  //
+      ("method", po::value<std::string>()->default_value("visual"),
+       "visual: the odometry of the images; wheel: that of wheel_ticks, with imu/data where the bag has it")  //
+      ("rig", po::value<std::string>(),
+       "rig file whose section drive describes the wheels, for --method wheel")  //
+      ("config", po::value<std::string>(),
+       "parameters of the odometry: a path, or a file of the package's config folder (default: vo.yaml, or "
+       "wheel.yaml for wheels)")  //
       ("disparity-config", po::value<std::string>()->default_value("disparity.yaml"),
        "parameters of the disparity map, where the odometry uses one; looked up in the same way")  //
       ("disparity-from", po::value<std::string>(),
@@ -64,7 +85,7 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
   if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;
   if (values.count("bag") == 0) throw InputError("no BAG given; see evaluate --help");
   options.bag = values["bag"].as<std::string>();
-  options.config = ros_io::configFile(values["config"].as<std::string>());
+  readMethod(values, options);
   options.disparity_config = ros_io::configFile(values["disparity-config"].as<std::string>());
   if (values.count("disparity-from") != 0)
     options.disparity_from = values["disparity-from"].as<std::string>();

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/atomic_file.h"
+#include "kinematics/drive_file.h"
 #include "ros/judged_infos.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/conversions.h"
@@ -18,6 +19,7 @@
 #include "tools/import_sequence/derived_sequence.h"
 #include "tools/import_sequence/sequence_bag.h"
 #include "tools/import_sequence/sixteen_bits.h"
+#include "tools/import_sequence/wheel_sequence.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -25,8 +27,8 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr const char* kUsage =
-    "usage: import_sequence --format euroc|kitti|kitti_raw|images DIR --output BAG [options]\n"
-    "Turns a public stereo recording into a bag with the topics of a stereo rig.\n\n"
+    "usage: import_sequence --format euroc|kitti|kitti_raw|images|optiodom DIR --output BAG [options]\n"
+    "Turns a public recording into a bag with the topics of a stereo rig, or of wheels.\n\n"
     "  euroc   DIR/cam0, cam1 (data.csv, data/, sensor.yaml), imu0, state_groundtruth_estimate0;\n"
     "          raw images, rectified downstream by the camera_infos written\n"
     "  kitti   DIR/image_0, image_1, calib.txt, times.txt, poses.txt (KITTI odometry); time 0 becomes\n"
@@ -38,9 +40,13 @@ constexpr const char* kUsage =
     "          pairs have equal names; stamps come from times.txt, from names that are dates, or from fps;\n"
     "          not rectified with left.yaml and right.yaml (ROS), camchain.yaml (Kalibr), or "
     "intrinsics.yml and\n"
-    "          extrinsics.yml (OpenCV)\n\n"
+    "          extrinsics.yml (OpenCV)\n"
+    "  optiodom  DIR = a run, SET_run-NN.csv, with SET_metadata.csv beside it: pulses of three omni wheels and motion\n"
+    "          capture; time 0 becomes 1000 s; of the options --rig alone applies\n\n"
     "base_link is the IMU (the default for euroc and kitti_raw) or the left camera with x forward, y left, z up (REP-103;\n"
     "the default for the others). The ground truth gives poses of base_link.\n\nOptions";
+
+constexpr const char* kOptiodom = "optiodom";
 
 std::atomic<bool> interrupted{false};
 
@@ -48,6 +54,7 @@ struct Arguments {
   std::string format;
   std::string folder;
   std::string output;
+  std::string rig;
   bool reverse = false;
   bool mirror = false;
   BagOptions bag;
@@ -67,14 +74,16 @@ po::options_description describeOptions(Arguments& arguments, double& right_stam
   options.add_options()("reverse", po::bool_switch(&arguments.reverse), "let time run backwards");
   options.add_options()("mirror", po::bool_switch(&arguments.mirror),
                         "flip the images left to right and swap the cameras");
+  options.add_options()("rig", po::value(&arguments.rig),
+                        "optiodom: rig file to write, with the nominal geometry of the wheels");
   options.add_options()("base-frame", po::value<std::string>(), "imu or camera: where base_link is");
   return options;
 }
 
 void checkArguments(const Arguments& arguments) {
-  const std::set<std::string> formats = {"euroc", "kitti", "kitti_raw", "images"};
+  const std::set<std::string> formats = {"euroc", "kitti", "kitti_raw", "images", "optiodom"};
   if (formats.count(arguments.format) == 0) {
-    throw InputError("--format must be euroc, kitti, kitti_raw or images" +
+    throw InputError("--format must be euroc, kitti, kitti_raw, images or optiodom" +
                      (arguments.format.empty() ? std::string() : ", not '" + arguments.format + "'"));
   }
   if (arguments.folder.empty()) throw InputError("no DIR given");
@@ -85,7 +94,9 @@ void checkArguments(const Arguments& arguments) {
   if (!(std::abs(arguments.bag.right_stamp_offset_s) <= 100.0)) {
     throw InputError("--right-stamp-offset-ms must lie between -100000 and 100000");
   }
-  if (!std::filesystem::is_directory(arguments.folder)) {
+  if (!arguments.rig.empty() && arguments.format != kOptiodom)
+    throw InputError("--rig is for --format optiodom: the other layouts know no wheels");
+  if (arguments.format != kOptiodom && !std::filesystem::is_directory(arguments.folder)) {
     throw InputError(arguments.folder + ": is no folder; give the one that holds the recording");
   }
 }
@@ -140,10 +151,23 @@ void showProgress(std::size_t done, std::size_t all) {
   std::fprintf(stderr, "\r%zu of %zu pairs%s", done, all, done == all ? "\n" : "");
 }
 
+int importWheels(const Arguments& arguments) {
+  const WheelSequence sequence = readOptiodom(arguments.folder);
+  writeWheelBag(sequence, arguments.output);
+  if (!arguments.rig.empty())
+    writeFileAtomically(arguments.rig,
+                        "# Nominal geometry of the wheels; calibrate_wheels finds the true one.\n" +
+                            kinematics::driveSection(sequence.drive));
+  std::printf("%s: %zu readings of %zu wheels\n", arguments.output.c_str(), sequence.readings.size(),
+              sequence.drive.wheels.size());
+  return 0;
+}
+
 int run(int argc, char** argv) {
   Arguments arguments;
   if (!parse(argc, argv, arguments)) return 0;
   { const AtomicFile writable(arguments.output); }  // before the work, not after it
+  if (arguments.format == kOptiodom) return importWheels(arguments);
   Sequence sequence = readSequence(arguments);
   checkCalibration(arguments, sequence);
   useFullRange(sequence);

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <exception>
 
+#include "core/atomic_file.h"
+#include "kinematics/drive_file.h"
 #include "tools/common/program.h"
 #include "tools/simulate/simulate_options.h"
 #include "tools/simulate/simulated_bag.h"
@@ -19,8 +21,11 @@ void showProgress(std::size_t done, std::size_t all) {
 int run(int argc, char** argv) {
   const auto options = parseSimulateOptions(argc, argv);
   if (!options) return 0;
-  const sim::Simulation simulation(sim::loadScenario(options->scenario, options->overrides),
-                                   sim::loadStereoCalibration(options->calibration), options->seed);
+  sim::Scenario scenario = sim::loadScenario(options->scenario, options->overrides);
+  if (!options->rig.empty()) scenario.drive = kinematics::readDrive(RigFile::load(options->rig));
+  const sim::Simulation simulation(scenario, sim::loadStereoCalibration(options->calibration), options->seed);
+  if (!options->true_rig.empty())
+    writeFileAtomically(options->true_rig, kinematics::driveSection(simulation.trueWheels()));
   writeSimulatedBag(options->output, simulation,
                     {options->duration_s, options->threads, options->images, options->compress},
                     showProgress);

@@ -59,7 +59,11 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
       ("set", po::value<std::vector<std::string>>(&options.overrides),
        "NAME=VALUE, changes a parameter of the scenario, e.g. imu.kind=perfect; may be repeated")  //
       ("calibration", po::value<std::string>(),
-       "folder with left.yaml and right.yaml (default: the thesis' rig)")                                  //
+       "folder with left.yaml and right.yaml (default: the thesis' rig)")  //
+      ("rig", po::value<std::string>(&options.rig),
+       "rig file whose section drive describes the wheels: the bag gets wheel_ticks, too")  //
+      ("true-rig", po::value<std::string>(&options.true_rig),
+       "rig file to write, with the wheels as they truly are (--set wheels.radius_sigma=0.01)")            //
       ("duration", po::value<double>(&options.duration_s), "seconds to record (default: the whole path)")  //
       ("threads", po::value<int>(&options.threads), "for rendering; the result does not depend on it")     //
       ("no-images", "IMU and ground truth only")                                                           //
@@ -72,6 +76,8 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
   }
   if (values.count("scenario") == 0) throw InputError("no SCENARIO given; see simulate --help");
   if (options.output.empty()) throw InputError("no --output BAG given; see simulate --help");
+  if (!options.true_rig.empty() && options.rig.empty())
+    throw InputError("--true-rig needs --rig FILE, which has the nominal wheels");
   if (options.threads < 1) throw InputError("--threads must be 1 or more");
   if (!(options.duration_s > 0.0)) throw InputError("--duration must be a number of seconds above 0");
   if (values.count("time-offset-ms") != 0) {

@@ -32,6 +32,11 @@ class BagWriter {
       if (messages_.hasAttitude())
         bag_.write(topics::kImuQuaternion, arrival, messages_.imuQuaternion(next_imu_));
     }
+    const auto& wheels = simulation_.wheels();
+    for (; next_ticks_ < wheels.size() && wheels[next_ticks_].time_s <= time_s; ++next_ticks_) {
+      bag_.write(topics::kWheelTicks, messages_.stamp(wheels[next_ticks_].time_s),
+                 messages_.wheelTicks(next_ticks_));
+    }
     const auto& waypoints = simulation_.trajectory().waypoints();
     for (; next_waypoint_ < waypoints.size() && waypoints[next_waypoint_].time_s <= time_s;
          ++next_waypoint_) {
@@ -61,6 +66,7 @@ class BagWriter {
   const sim::Simulation& simulation_;
   const ros_io::SimulatedMessages& messages_;
   std::size_t next_imu_ = 0;
+  std::size_t next_ticks_ = 0;
   std::size_t next_waypoint_ = 0;
 };
 

@@ -118,9 +118,31 @@ TEST(RigFile, WhatCannotBeReplacedIsNamed) {
   expectRefusal("mounting: [", "not valid YAML");
 }
 
+TEST(RigFile, NumbersAreReplacedInsertedAndAppended) {
+  RigFile rig = RigFile::parse(
+      "drive:  # ours\n  wheels: 2\n  wheel_1: {name: left, radius_m: 0.05}  # worn\n  wheel_2:\n    name: right\n",
+      "rig.yaml");
+  rig.setNumber({"drive", "wheel_1", "radius_m"}, "0.049");
+  rig.setNumber({"drive", "wheel_1", "y_m"}, "0.2");
+  rig.setNumber({"drive", "wheel_2", "y_m"}, "-0.2");
+  rig.setNumber({"wheel_odometry", "scale_sigma"}, "0.001");
+  rig.setNumber({"wheel_odometry", "pulse_sigma"}, "0.3");
+  EXPECT_EQ(
+      rig.text(),
+      "drive:  # ours\n  wheels: 2\n  wheel_1: {y_m: 0.2, name: left, radius_m: 0.049}  # worn\n  wheel_2:\n"
+      "    y_m: -0.2\n    name: right\n"
+      "wheel_odometry:\n  pulse_sigma: 0.3\n  scale_sigma: 0.001\n");
+  EXPECT_EQ(rig.section("drive")["wheel_2"]["y_m"].as<double>(), -0.2);
+  EXPECT_NE(messageOf([&] {
+              rig.setNumber({"drive", "wheel_3", "y_m"}, "0");
+            }).find("drive/wheel_3/y_m cannot be set: drive/wheel_3 is missing"),
+            std::string::npos);
+}
+
 TEST(RigFile, UnknownSectionsAndNamesAreRefused) {
   EXPECT_EQ(messageOf([] { RigFile::parse("camera: {}", "rig.yaml"); }),
-            "rig.yaml: unknown section camera; a rig has: cameras | imu | mounting | disparity");
+            "rig.yaml: unknown section camera; a rig has: cameras | imu | mounting | disparity | drive | "
+            "wheel_odometry");
   EXPECT_NE(messageOf([] {
               RigFile::parse("mounting: {laser: {}}", "rig.yaml").mounting();
             }).find("rig.yaml: mounting: unknown parameter laser"),

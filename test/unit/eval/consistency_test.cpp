@@ -54,6 +54,23 @@ TEST_F(ConsistencyTest, TrueCovariancesGiveWhatChiSquareExpects) {
   EXPECT_NEAR(nees.inside_95_percent, 95.0, 0.9);
 }
 
+TEST_F(ConsistencyTest, InThePlaneThreeAxesCount) {
+  EvaluationInput input = drift(20001);
+  input.planar = true;
+  const auto truth = input.relative_covariance;
+  input.relative_covariance = [truth](std::size_t from, std::size_t to) -> Matrix6d {
+    Matrix6d covariance = truth(from, to);
+    covariance.diagonal().segment<3>(2).setConstant(1e6);  // z, roll and pitch are not known
+    return covariance;
+  };
+  const Nees nees = neesOver(0.2, input);
+  EXPECT_EQ(nees.expected, 3);
+  EXPECT_NEAR(nees.mean, 3.0, 0.1);
+  EXPECT_NEAR(nees.translation, 2.0, 0.08);
+  EXPECT_NEAR(nees.rotation, 1.0, 0.06);
+  EXPECT_NEAR(nees.inside_95_percent, 95.0, 0.9);
+}
+
 TEST_F(ConsistencyTest, AnErrorOfTwiceTheSigmaCountsFourTimes) {
   EvaluationInput input = drift(20001);
   const auto truth = input.relative_covariance;

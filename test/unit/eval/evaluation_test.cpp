@@ -142,7 +142,7 @@ TEST(EvaluationSummary, fileHasFixedKeysAndRoundTripNumbers) {
   summary.config = "a \"quoted\" name";
   summary.input = "x.bag";
   const std::string no_nees =
-      "      \"mean\": null,\n      \"translation\": null,\n      \"rotation\": null,\n"
+      "      \"expected\": 6,\n      \"mean\": null,\n      \"translation\": null,\n      \"rotation\": null,\n"
       "      \"inside_95_percent\": null,\n      \"pairs\": 0\n";
   EXPECT_EQ(toJson(summary),
             "{\n"

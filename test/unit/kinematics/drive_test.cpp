@@ -135,5 +135,14 @@ TEST(DriveParams, anyNumberOfWheelsFromYaml) {
   EXPECT_THROW(readParameters(YAML::Load("{wheels: 1, wheel_2: {}}"), "rig.yaml", params), ParameterError);
 }
 
+TEST(Drive, anAxleThatWasMeasuredTurnsAllTheSame) {
+  DriveParams params = differentialDrive(0.4, 0.05);
+  params.wheels[0].x_m = 1e-3;
+  params.wheels[1].direction_deg = 0.1;
+  const Drive drive(params);
+  EXPECT_LT((drive.nearestPossible({0.3, 0.0, 0.0}) - Twist(0.3, 0.0, 0.0)).norm(), 1e-3);
+  EXPECT_LT((drive.nearestPossible({0.0, 0.0, 1.0}) - Twist(0.0, 0.0, 1.0)).norm(), 2e-3);
+}
+
 }  // namespace
 }  // namespace stereo_nav::kinematics

@@ -1,8 +1,8 @@
-#include "nodes/visual_odometry/odom_transform_publisher.h"
+#include "ros/odom_transform_publisher.h"
 
 #include <geometry_msgs/TransformStamped.h>
 
-namespace stereo_nav::nodes {
+namespace stereo_nav::ros_io {
 
 void OdomTransformPublisher::publish(const nav_msgs::Odometry& odometry) {
   geometry_msgs::TransformStamped transform;
@@ -15,4 +15,4 @@ void OdomTransformPublisher::publish(const nav_msgs::Odometry& odometry) {
   broadcaster_.sendTransform(transform);
 }
 
-}  // namespace stereo_nav::nodes
+}  // namespace stereo_nav::ros_io

@@ -1,0 +1,34 @@
+#include "nodes/wheel_odometry/wheel_messages.h"
+
+#include <cmath>
+
+namespace stereo_nav::nodes {
+namespace {
+
+void fill(const Matrix6d& covariance, boost::array<double, 36>& message) {
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
+}
+
+}  // namespace
+
+nav_msgs::Odometry toOdometry(const odometry::WheelOdometryResult& result, const std::string& odom_frame,
+                              const std::string& base_frame) {
+  const double yaw_rad = Eigen::Rotation2Dd(result.T_odom_base.linear()).angle();
+  nav_msgs::Odometry odometry;
+  odometry.header.stamp = ros::Time(result.time_s);
+  odometry.header.frame_id = odom_frame;
+  odometry.child_frame_id = base_frame;
+  odometry.pose.pose.position.x = result.T_odom_base.translation().x();
+  odometry.pose.pose.position.y = result.T_odom_base.translation().y();
+  odometry.pose.pose.orientation.z = std::sin(0.5 * yaw_rad);
+  odometry.pose.pose.orientation.w = std::cos(0.5 * yaw_rad);
+  fill(odometry::spatialCovariance(odometry::inAxesOf(result.T_odom_base, result.pose_covariance)),
+       odometry.pose.covariance);
+  odometry.twist.twist.linear.x = result.twist.x();
+  odometry.twist.twist.linear.y = result.twist.y();
+  odometry.twist.twist.angular.z = result.twist.z();
+  fill(odometry::spatialCovariance(result.twist_covariance), odometry.twist.covariance);
+  return odometry;
+}
+
+}  // namespace stereo_nav::nodes

@@ -1,0 +1,110 @@
+#include "tools/evaluate/wheel_run.h"
+
+#include <chrono>
+#include <filesystem>
+
+#include "core/angles.h"
+#include "odometry/wheel/wheel_odometry.h"
+#include "ros/wheel_recording.h"
+#include "stereo_nav/core/input_error.h"
+#include "stereo_nav/ros/topics.h"
+
+namespace stereo_nav::tools {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+Eigen::Isometry3d spatial(const Eigen::Isometry2d& T) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear().topLeftCorner<2, 2>() = T.linear();
+  result.translation().head<2>() = T.translation();
+  return result;
+}
+
+Trajectory truthOfBase(const EvaluateOptions& options, const ros_io::WheelRecording& recording) {
+  if (!options.ground_truth || !std::filesystem::exists(*options.ground_truth)) {
+    return recording.poses(options.ground_truth.value_or(ros_io::topics::kGroundTruth),
+                           options.ground_truth.has_value());
+  }
+  const Trajectory truth = readTum(*options.ground_truth);
+  const std::string frame = options.ground_truth_frame.value_or(ros_io::frames::kBase);
+  return frame == ros_io::frames::kBase ? truth : ofOtherBody(truth, recording.T_base(frame).inverse());
+}
+
+/// What the intervals told of their uncertainty, for the motion between any two readings.
+class Steps {
+ public:
+  Steps(const odometry::WheelOdometryParams& params, const odometry::WheelOdometry& odometry)
+      : errors_{params.scale_sigma, params.yaw_drift_sigma_rad_per_s},
+        reading_variance_m2_(odometry.readingVariance_m2()) {}
+
+  void add(const odometry::WheelStep& step) { steps_.push_back(step); }
+
+  Matrix6d operator()(std::size_t from, std::size_t to) const {
+    odometry::PlanarCovariance covariance(reading_variance_m2_.size(), errors_);
+    for (std::size_t i = from + 1; i <= to; ++i) covariance.append(steps_[i], reading_variance_m2_);
+    return odometry::spatialCovariance(covariance.covariance());
+  }
+
+ private:
+  odometry::ConstantErrors errors_;
+  std::vector<double> reading_variance_m2_;
+  std::vector<odometry::WheelStep> steps_;  ///< one a reading, that of the first is empty
+};
+
+struct WheelPass {
+  std::vector<eval::FrameRecord> frames;
+  Steps steps;
+  std::string problem;  ///< the first that the check of the encoders found
+};
+
+WheelPass pass(const odometry::WheelOdometryParams& params, const ros_io::WheelRecording& recording) {
+  odometry::WheelOdometry odometry(params);
+  WheelPass result{{}, Steps(params, odometry), ""};
+  for (const auto& sample : recording.samples()) {
+    const auto start = SteadyClock::now();
+    const odometry::WheelOdometryResult estimate = odometry.process(sample);
+    eval::FrameRecord frame;
+    frame.timing.frame_ms = std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
+    frame.time_s = estimate.time_s;
+    frame.T_odom_base = spatial(estimate.T_odom_base);
+    frame.pose_covariance =
+        odometry::spatialCovariance(odometry::inAxesOf(estimate.T_odom_base, estimate.pose_covariance));
+    result.frames.push_back(frame);
+    result.steps.add(odometry.lastStep());
+    if (result.problem.empty()) result.problem = estimate.problem;
+  }
+  return result;
+}
+
+}  // namespace
+
+EvaluationRun runWheelEvaluation(const EvaluateOptions& options) {
+  const odometry::WheelOdometryParams params =
+      odometry::loadWheelOdometry(options.config, RigFile::load(options.rig));
+  const ros_io::WheelRecording recording(options.bag, params.drive,
+                                         {options.part.start_s, options.part.duration_s, true});
+  EvaluationRun run;
+  run.input.input = std::filesystem::path(options.bag).filename().string();
+  run.input.config = std::filesystem::path(options.rig).filename().string();
+  run.input.planar = true;
+  run.input.notes = recording.notes();
+  run.input.imu_set_aside = recording.imuSetAside();
+  if (!recording.imuSetAside().empty())
+    run.input.notes.push_back("the IMU is set aside, the yaw is that of the wheels: " +
+                              recording.imuSetAside());
+  run.input.ground_truth = truthOfBase(options, recording);
+  run.input.truth_sigma_m = options.truth_sigma_m;
+  run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
+  for (int repetition = 0; repetition < options.repeat; ++repetition) {
+    WheelPass result = pass(params, recording);
+    for (const auto& frame : result.frames) run.timings.push_back(frame.timing);
+    if (repetition > 0) continue;
+    run.input.frames = std::move(result.frames);
+    run.input.relative_covariance = std::move(result.steps);
+    if (!result.problem.empty()) run.input.notes.push_back(result.problem);
+  }
+  return run;
+}
+
+}  // namespace stereo_nav::tools
