@@ -5,11 +5,13 @@
 #include <string>
 
 #include "core/rig_file.h"
+#include "kinematics/drive_params.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "nodes/simulator/simulator_node.h"
 #include "nodes/visual_odometry/visual_odometry_params.h"
+#include "nodes/wheel_odometry/wheel_odometry_node_params.h"
 #include "ros/capture_setup.h"
 #include "ros/stereo_processing.h"
 #include "stereo_nav/odometry/method/odometry_config.h"
@@ -52,11 +54,17 @@ void printHeading(const std::string& title, const std::string& text = "") {
 }
 
 void printSensors() {
-  printHeading("## The rig file",
-               "Sections `cameras` (as `stereo_capture`), `imu` (as `imu_bridge`), `disparity` (as "
-               "`stereo_image_proc/disparity`), all below, and `mounting`: where the sensors sit in "
-               "`base_link`.");
+  printHeading(
+      "## The rig file",
+      "Sections `cameras` (as `stereo_capture`), `imu` (as `imu_bridge`), `disparity` (as "
+      "`stereo_image_proc/disparity`), `wheel_odometry` (as `wheel_odometry`, without its own), all below, and "
+      "`mounting`: where the sensors sit in `base_link`.");
   printTable(Mounting());
+  printHeading(
+      "### Section `drive`",
+      "`wheels`, how many there are, and for each of them a section `wheel_1`, `wheel_2`, ... as here; radius_m "
+      "and pulses_per_turn have no default.");
+  printTable(kinematics::WheelParams());
   printHeading(
       "## `stereo_capture`",
       "Beside these the maps `controls`, `left.controls` and `right.controls`: any V4L2 control by "
@@ -81,6 +89,11 @@ void printOdometry() {
 }
 
 void printOthers() {
+  printHeading(
+      "## `wheel_odometry`",
+      "Its own, and then those of the odometry: `config/wheel.yaml` and files like it (`~config`), also read by "
+      "`evaluate --method wheel` and `calibrate_wheels`. The wheels are the section `drive` of `~rig`.");
+  printTable(nodes::WheelOdometryNodeParams());
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
                "file.");
