@@ -36,12 +36,13 @@ simulated_table() {
   echo "| drive | camera | IMU | configuration | frames | lost | ATE m | rel. % | rel. deg/m | NEES 0.2 s | NEES 1 s | NEES 5 s |"
   echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
   local drive camera scenario imu config bag out settings options
+  local -A seconds=([loop]=20 [turn_in_place]=20)  # these go on in the same way
   for drive in arena corridor loop turn_in_place crowd; do
     for camera in kind webcam; do
       bag=$work/$drive-$camera.bag scenario=$drive settings=(--set rig.image_scale=2)
       [[ $camera == kind ]] || scenario=${drive}_webcam settings=()
-      [[ -s $bag ]] || rosrun stereo_nav simulate "$scenario" --output "$bag" "${settings[@]}" \
-        >"$work/$drive-$camera.log" 2>&1 || die "$drive, $camera cannot be made: $(tail -n 1 "$work/$drive-$camera.log")"
+      [[ -s $bag ]] || rosrun stereo_nav simulate "$scenario" --output "$bag" --duration "${seconds[$drive]:-1000}" \
+        "${settings[@]}" >"$work/$drive-$camera.log" 2>&1 || die "$drive, $camera cannot be made: $(tail -n 1 "$work/$drive-$camera.log")"
       for config in "${configs[@]}"; do
         for imu in yes no; do
           out=$work/$drive-$camera-${config%.yaml}-$imu options=(--disparity-config "$work/disparity.yaml")

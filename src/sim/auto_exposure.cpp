@@ -50,7 +50,7 @@ void AutoExposureParams::describe(ParameterVisitor& visitor) {
   visitor.real("target", target, {1.0, 254.0}, "grey levels", "mean grey level that it aims at");
   visitor.real(
       "speed", speed, {0.01, 1.0}, "",
-      "share of the error that one image corrects; with a delay it hunts from 0.2, from 0.6 for ever");
+      "share of the error that one image corrects; with a delay of 2 it hunts above 0.15, for ever above 0.6");
   visitor.integer("delay_images", delay_images, {0, 10}, "", "images that go by until a setting shows");
   visitor.real("tolerance_stops", tolerance_stops, {0.0, 3.0}, "stops", "errors up to this are left alone");
 }

@@ -93,6 +93,35 @@ TEST(Webcam, ExposureHuntsWhenTheLampsGoOnAndSettlesWithinASecond) {
       0.5 * simulation.exposure(Side::kLeft, 20).exposure_ms * simulation.exposure(Side::kLeft, 20).gain);
 }
 
+TEST(Webcam, AWindowThatEntersTheViewDarkensTheRoom) {
+  Scenario scenario = plainView();
+  scenario.sensor.flicker.mains_hz = 0.0;
+  ObjectParams window;  // to the left of the robot
+  window.y_m = 3.0;
+  window.length_m = 1.5;
+  window.width_m = 0.1;
+  window.height_m = 2.0;
+  window.material.brightness = 10.0;
+  window.material.contrast = 0.0;
+  scenario.scene.objects.push_back(window);
+  PathStep turn;
+  turn.action = PathStep::Action::kTurn;
+  turn.angle_deg = 90.0;
+  PathStep wait = scenario.path.front();
+  wait.duration_s = 2.0;
+  scenario.path = {turn, wait};
+  const Simulation simulation(scenario, thesisRig(), 1);
+  const auto total = [&](std::size_t pair) {
+    const ExposureSetting& setting = simulation.exposure(Side::kLeft, pair);
+    return setting.exposure_ms * setting.gain;
+  };
+  const std::size_t last = simulation.pairs().size() - 1;
+  double least = total(0);
+  for (std::size_t pair = 0; pair <= last; ++pair) least = std::min(least, total(pair));
+  EXPECT_LT(total(last), 0.7 * total(0));  // it has settled on the window ...
+  EXPECT_LT(least, 0.9 * total(last));     // ... after it had gone too far
+}
+
 TEST(Webcam, LampsDrawBandsAcrossARollingShutter) {
   Scenario scenario = plainView();
   scenario.sensor.auto_exposure.on = false;
