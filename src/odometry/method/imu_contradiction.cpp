@@ -25,7 +25,7 @@ constexpr double kContradiction =
     0.4;                            ///< share of the turns; what noise, bias and jitter cause stays below 0.2
 constexpr double kExplained = 0.2;  ///< share that an explanation may leave over
 constexpr double kLargestBias_rad_s = 0.15;  ///< of the rates of a cheap gyroscope
-constexpr double kStill = 0.05;              ///< share of what is seen below which nothing is sensed
+constexpr double kStill_rad = 1e-6;          ///< of a frame: an IMU that works has noise, even at rest
 constexpr double kLeastRate_rad_s = 0.1;     ///< slower turns tell little more than noise
 constexpr double kLeastDegrees = 20.0;       ///< rates in deg/s are 57 times too large, give or take a bias
 constexpr double kLongestDelay_s = 1.0;
@@ -103,7 +103,7 @@ ImuContradiction::Comparison ImuContradiction::compare(const RotationHistory& im
     comparison.seen_rad += pair.seen.norm();
     comparison.sensed_rad += sensed_rad.norm();
     comparison.difference_rad += (pair.seen - sensed_rad).norm();
-    if (pair.sensed.norm() < kStill * pair.seen.norm()) comparison.unsensed_rad += pair.seen.norm();
+    if (pair.sensed.norm() < kStill_rad) comparison.unsensed_rad += pair.seen.norm();
     ++comparison.frames;
   }
   return comparison;

@@ -126,6 +126,11 @@ TEST_F(ImuContradictionTest, AnOrientationThatJumpsAndThenStaysTheSameIsNamed) {
   EXPECT_TRUE(contains(contradiction_.find(stopped).value_or(""), "stay the same while it turns"));
 }
 
+TEST_F(ImuContradictionTest, OneAtRestIsNotTakenForDeadWhenTheSceneSeemsToTurnForAMoment) {
+  turn(1.5, yawOnly, [](double t) { return Eigen::Vector3d(1e-3, 2e-3, 1e-3 * std::sin(50.0 * t)); });
+  EXPECT_EQ(found(), "") << "people who walk by look the same; half a radian in 30 frames has to contradict";
+}
+
 TEST_F(ImuContradictionTest, ExchangedAxesGiveTheLineForTheRigFile) {
   // The IMU is turned by 90 degrees to the left, and tf does not know.
   const Eigen::Matrix3d R_base_imu = RollPitchYaw::fromDegrees(0.0, 0.0, 90.0).rotation();
