@@ -121,7 +121,11 @@ void OdometryInputs::subscribeImu() {
 void OdometryInputs::handleLeft(const sensor_msgs::ImageConstPtr& image) {
   const auto arrival = std::chrono::steady_clock::now();
   monitor_.received(left_input_, image->header.stamp, clock_.seconds());
-  ++lefts_received_;
+  {
+    // Before the frame is passed on: its status counts it.
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++counts_.frames;
+  }
   synchroniser_.addLeft(image, arrival);
   passOnFrames();
 }
@@ -149,7 +153,6 @@ void OdometryInputs::passOnFrames() {
     inbox_.push(std::move(*frame));
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  counts_.frames = lefts_received_;
   counts_.dropped = synchroniser_.dropped() + inbox_.framesDropped();
 }
 

@@ -72,7 +72,6 @@ class OdometryInputs {
   std::size_t left_input_ = 0, right_input_ = 0, left_info_input_ = 0, right_info_input_ = 0,
               disparity_input_ = 0, imu_input_ = 0;
   bool uses_disparity_ = false;
-  std::uint64_t lefts_received_ = 0;
   std::uint64_t imu_refused_ = 0;
   std::uint64_t dropped_reported_ = 0;
   SensorSetup judged_setup_;  ///< whose calibration the problem below is
