@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/angles.h"
 #include "core/planar_motion.h"
 #include "eval/alignment.h"
 #include "odometry/wheel/pulse_counter.h"
@@ -22,10 +21,9 @@ WheelWindows::WheelWindows(const odometry::WheelOdometryParams& params, const st
         step.pulses.push_back(static_cast<double>(
             odometry::pulsesBetween(samples[i - 1].pulses[w], samples[i].pulses[w], params.counter_bits)));
       }
-      for (std::size_t w = 0; w < samples[i].steering_rad.size(); ++w) {
-        const double from = samples[i - 1].steering_rad[w];
-        step.steering_rad.push_back(from + 0.5 * wrapRadians(samples[i].steering_rad[w] - from));
-      }
+      for (std::size_t w = 0; w < samples[i].steering_rad.size(); ++w)
+        step.steering_rad.push_back(
+            odometry::meanSteering_rad(samples[i - 1].steering_rad[w], samples[i].steering_rad[w]));
       steps.push_back(std::move(step));
     }
     steps_.push_back(std::move(steps));
@@ -73,11 +71,10 @@ odometry::WheelInterval WheelWindows::intervalOf(const Step& step, const kinemat
   odometry::WheelInterval interval;
   interval.steering_rad = step.steering_rad;
   for (std::size_t w = 0; w < step.pulses.size(); ++w) {
-    const double pulse_m = drive.wheels[w].metresPerPulse();
-    const double distance_m = step.pulses[w] * pulse_m;
+    const double distance_m = step.pulses[w] * drive.wheels[w].metresPerPulse();
     interval.distance_m.push_back(distance_m);
-    interval.variance_m2.push_back(std::pow(errors.slip_sigma_m, 2) * std::abs(distance_m) +
-                                   2.0 * std::pow(errors.pulse_sigma * pulse_m, 2));
+    interval.variance_m2.push_back(errors.slipVariance_m2(distance_m) +
+                                   2.0 * errors.readingVariance_m2(drive.wheels[w]));
   }
   return interval;
 }
@@ -119,13 +116,13 @@ Eigen::Matrix3d WheelWindows::covariance(const Window& window,
   odometry::PlanarCovariance covariance(drive.size(), {params.scale_sigma, 0.0});
   std::vector<double> reading_variance_m2;
   for (const auto& wheel : params.drive.wheels)
-    reading_variance_m2.push_back(std::pow(params.pulse_sigma * wheel.metresPerPulse(), 2));
+    reading_variance_m2.push_back(params.readingVariance_m2(wheel));
   for (std::size_t i = window.first; i < window.last; ++i) {
     odometry::WheelStep step;
     step.interval = intervalOf(steps_[window.run][i], params.drive, params);
     step.motion = odometry::solveInterval(drive, step.interval);
-    for (std::size_t w = 0; w < drive.size(); ++w)
-      step.slip_variance_m2.push_back(step.interval.variance_m2[w] - 2.0 * reading_variance_m2[w]);
+    for (const double distance_m : step.interval.distance_m)
+      step.slip_variance_m2.push_back(params.slipVariance_m2(distance_m));
     covariance.append(step, reading_variance_m2);
   }
   return covariance.covariance();

@@ -45,6 +45,13 @@ Eigen::Isometry2d planarPart(const Eigen::Isometry3d& T) {
   return planar;
 }
 
+Eigen::Isometry3d inSpace(const Eigen::Isometry2d& T) {
+  Eigen::Isometry3d spatial = Eigen::Isometry3d::Identity();
+  spatial.linear().topLeftCorner<2, 2>() = T.linear();
+  spatial.translation().head<2>() = T.translation();
+  return spatial;
+}
+
 Eigen::Matrix3d adjointPlanar(const Eigen::Isometry2d& T_a_b) {
   Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
   result.topLeftCorner<2, 2>() = T_a_b.linear();

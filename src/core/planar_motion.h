@@ -14,6 +14,9 @@ Eigen::Vector3d logPlanar(const Eigen::Isometry2d& T);
 /// above.
 Eigen::Isometry2d planarPart(const Eigen::Isometry3d& T);
 
+/// A pose in the x-y plane as one in space.
+Eigen::Isometry3d inSpace(const Eigen::Isometry2d& T);
+
 /// Takes a small planar motion that is expressed in frame b into frame a (Sola et al., eq. 159).
 Eigen::Matrix3d adjointPlanar(const Eigen::Isometry2d& T_a_b);
 

@@ -40,9 +40,7 @@ std::size_t positionOf(const std::string& text, const YAML::Mark& mark) {
 
 /// The first `count` names.
 std::string joined(const std::vector<std::string>& path, std::size_t count) {
-  std::string text;
-  for (std::size_t i = 0; i < count; ++i) text += (i == 0 ? "" : "/") + path[i];
-  return text;
+  return fmt::format("{}", fmt::join(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(count), "/"));
 }
 
 std::string toText(double angle_deg) {

@@ -47,6 +47,8 @@ Nees neesOver(double interval_s, const EvaluationInput& input) {
   const KnownAxes axes = knownAxes(input.planar);
   Nees nees;
   nees.expected = static_cast<int>(axes.all.size());
+  nees.expected_translation = static_cast<int>(axes.translation.size());
+  nees.expected_rotation = static_cast<int>(axes.rotation.size());
   const double inside_95 = chiSquareQuantile(nees.expected, 0.95);
   double all = 0.0, translation = 0.0, rotation = 0.0, inside = 0.0;
   std::optional<std::size_t> from;

@@ -114,8 +114,8 @@ std::string consistencyTable(const EvaluationSummary& s) {
         fmt::format(
             "{} is expected; translation {:.2f} ({}), rotation {:.2f} ({}); {:.0f} % of {} pieces inside the "
             "ellipsoid of 95 %",
-            nees.expected, nees.translation, nees.expected == 3 ? 2 : 3, nees.rotation,
-            nees.expected == 3 ? 1 : 3, nees.inside_95_percent, nees.pairs));
+            nees.expected, nees.translation, nees.expected_translation, nees.rotation, nees.expected_rotation,
+            nees.inside_95_percent, nees.pairs));
   }
   return rows.empty() ? "" : "<h2>Consistency of the covariances</h2>\n<table>\n" + rows + "</table>\n";
 }

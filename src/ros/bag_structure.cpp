@@ -12,6 +12,8 @@
 #include <map>
 #include <vector>
 
+#include "stereo_nav/core/input_error.h"
+
 namespace stereo_nav::ros_io {
 namespace {
 
@@ -208,6 +210,23 @@ void checkBagStructure(const std::string& path) {
 void openBag(rosbag::Bag& bag, const std::string& path) {
   if (std::filesystem::is_regular_file(path)) checkBagStructure(path);
   bag.open(path, rosbag::bagmode::Read);
+}
+
+void readBag(const std::string& path, const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const rosbag::BagUnindexedException&) {
+    throw InputError(path + ": the recording was cut off (it has no index); `rosbag reindex " + path +
+                     "` repairs it and keeps the original as *.orig.bag");
+  } catch (const rosbag::BagException& error) {
+    throw InputError(
+        path + ": cannot be read as a bag (" + error.what() +
+        "); where the file was cut off, e.g. while it was copied, copy it again or repair it: `rosbag "
+        "reindex " +
+        path + "`");
+  } catch (const ros::Exception& error) {
+    throw InputError(path + ": damaged message: " + error.what());
+  }
 }
 
 }  // namespace stereo_nav::ros_io

@@ -2,6 +2,7 @@
 
 #include <rosbag/bag.h>
 
+#include <functional>
 #include <string>
 
 namespace stereo_nav::ros_io {
@@ -14,5 +15,8 @@ void checkBagStructure(const std::string& path);
 
 /// Opens a bag for reading once its structure has been checked.
 void openBag(rosbag::Bag& bag, const std::string& path);
+
+/// Does what reads the bag `path`; its errors become an InputError with the likely cause and the remedy.
+void readBag(const std::string& path, const std::function<void()>& read);
 
 }  // namespace stereo_nav::ros_io

@@ -1,5 +1,6 @@
 #include "stereo_nav/ros/recording.h"
 
+#include <fmt/format.h>
 #include <rosbag/view.h>
 #include <tf2/exceptions.h>
 
@@ -46,7 +47,7 @@ void straightenSync(const RecordedClock& clock, std::vector<StereoSync>& sync) {
 }  // namespace
 
 Recording::Recording(const std::string& path, const RecordingOptions& options) : path_(path) {
-  try {
+  readBag(path, [&] {
     openBag(bag_, path);
     findTopics(options);
     readMessages();
@@ -56,24 +57,11 @@ Recording::Recording(const std::string& path, const RecordingOptions& options) :
     readImu();
     readStaticTransforms(bag_, transforms_, notes_);
     pairImages(options);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw InputError(path + ": the recording was cut off (it has no index); `rosbag reindex " + path +
-                     "` repairs it and keeps the original as *.orig.bag");
-  } catch (const rosbag::BagException& error) {
-    throw InputError(
-        path + ": cannot be read as a bag (" + error.what() +
-        "); where the file was cut off, e.g. while it was copied, copy it again or repair it: `rosbag "
-        "reindex " +
-        path + "`");
-  } catch (const ros::Exception& error) {
-    throw InputError(path + ": damaged message: " + error.what());
-  }
+  });
 }
 
 std::string Recording::topicList() const {
-  std::string list;
-  for (const std::string& topic : all_topics_) list += (list.empty() ? "" : ", ") + topic;
-  return list.empty() ? "nothing" : list;
+  return all_topics_.empty() ? "nothing" : fmt::format("{}", fmt::join(all_topics_, ", "));
 }
 
 std::optional<std::string> Recording::find(const std::string& relative_name) const {

@@ -1,5 +1,6 @@
 #include "ros/wheel_recording.h"
 
+#include <fmt/format.h>
 #include <rosbag/view.h>
 #include <tf2/exceptions.h>
 
@@ -21,9 +22,7 @@ namespace stereo_nav::ros_io {
 namespace {
 
 std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "nothing" : text;
+  return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// In order of time, each stamp once; a note says what is left out.
@@ -45,7 +44,7 @@ void keepIncreasing(std::vector<odometry::WheelSample>& samples, std::vector<std
 WheelRecording::WheelRecording(const std::string& path, const kinematics::DriveParams& drive,
                                const WheelRecordingOptions& options)
     : path_(path) {
-  try {
+  readBag(path, [&] {
     openBag(bag_, path);
     std::set<std::string> names;
     for (const rosbag::ConnectionInfo* connection : rosbag::View(bag_).getConnections())
@@ -54,12 +53,7 @@ WheelRecording::WheelRecording(const std::string& path, const kinematics::DriveP
     readStaticTransforms(bag_, transforms_, notes_);
     readTicks(drive, options);
     if (options.imu) addYaw();
-  } catch (const rosbag::BagException& error) {
-    throw InputError(path + ": cannot be read as a bag (" + error.what() +
-                     "); where its recorder was killed, `rosbag reindex " + path + "` repairs it");
-  } catch (const ros::Exception& error) {
-    throw InputError(path + ": damaged message: " + error.what());
-  }
+  });
 }
 
 std::optional<std::string> WheelRecording::find(const std::string& name) const {

@@ -1,5 +1,7 @@
 #include "ros/wheel_ticks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,12 +9,6 @@
 
 namespace stereo_nav::ros_io {
 namespace {
-
-std::string listOf(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 std::vector<std::string> namesOf(const kinematics::DriveParams& drive) {
   std::vector<std::string> names;
@@ -30,8 +26,8 @@ std::vector<std::size_t> placesOf(const WheelTicks& message, const kinematics::D
     }
     const auto found = std::find(message.names.begin(), message.names.end(), drive.wheels[i].name);
     if (found == message.names.end() || message.names.size() != drive.wheels.size()) {
-      throw InputError("wheel_ticks has the wheels " + listOf(message.names) + ", the rig file " +
-                       listOf(namesOf(drive)) + "; give both the same names");
+      throw InputError(fmt::format("wheel_ticks has the wheels {}, the rig file {}; give both the same names",
+                                   fmt::join(message.names, ", "), fmt::join(namesOf(drive), ", ")));
     }
     places.push_back(static_cast<std::size_t>(found - message.names.begin()));
   }

@@ -40,9 +40,9 @@ class OdomCovariance {
   /// Sets the parameters for all later motions.
   void setUncertainty(const UncertaintyParams& params) { params_ = params; }
 
-  /// The pose is known with this covariance (axes of odom). Returns it with a thousandth of a millimetre and
-  /// of a milliradian added: it is never zero, since filters invert it. `pose_noise` of FrameResult is that
-  /// of the frame at which the counting starts.
+  /// The pose is known with this covariance (axes of odom). Returns it with a sigma of 1e-6 m and 1e-6 rad
+  /// added: it is never zero, since filters invert it. `pose_noise` is FrameResult::pose_noise of the frame
+  /// at which the counting starts; it stays part of all later covariances.
   Matrix6d start(const Eigen::Matrix3d& R_odom_base, const Matrix6d& pose_covariance,
                  const Matrix6d& pose_noise = Matrix6d::Zero());
 

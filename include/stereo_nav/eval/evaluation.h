@@ -52,9 +52,11 @@ struct EvaluationInput {
 struct Nees {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< without a piece
   int expected = 6;                     ///< what `mean` is of right covariances; 3 in the plane
+  int expected_translation = 3;         ///< likewise of `translation`; 2 in the plane
+  int expected_rotation = 3;            ///< likewise of `rotation`; 1 in the plane
   double mean = kUnknown;               ///< of all axes
-  double translation = kUnknown;        ///< of the translation alone, 3 is expected; 2 in the plane
-  double rotation = kUnknown;           ///< of the rotation alone, 3 is expected; 1 in the plane
+  double translation = kUnknown;        ///< of the translation alone
+  double rotation = kUnknown;           ///< of the rotation alone
   double inside_95_percent = kUnknown;  ///< pieces whose error lies inside the ellipsoid of 95 %, percent
   std::size_t pairs = 0;                ///< pieces
 };

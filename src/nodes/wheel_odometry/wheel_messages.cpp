@@ -1,6 +1,8 @@
 #include "nodes/wheel_odometry/wheel_messages.h"
 
-#include <cmath>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include "core/planar_motion.h"
 
 namespace stereo_nav::nodes {
 namespace {
@@ -13,15 +15,11 @@ void fill(const Matrix6d& covariance, boost::array<double, 36>& message) {
 
 nav_msgs::Odometry toOdometry(const odometry::WheelOdometryResult& result, const std::string& odom_frame,
                               const std::string& base_frame) {
-  const double yaw_rad = Eigen::Rotation2Dd(result.T_odom_base.linear()).angle();
   nav_msgs::Odometry odometry;
   odometry.header.stamp = ros::Time(result.time_s);
   odometry.header.frame_id = odom_frame;
   odometry.child_frame_id = base_frame;
-  odometry.pose.pose.position.x = result.T_odom_base.translation().x();
-  odometry.pose.pose.position.y = result.T_odom_base.translation().y();
-  odometry.pose.pose.orientation.z = std::sin(0.5 * yaw_rad);
-  odometry.pose.pose.orientation.w = std::cos(0.5 * yaw_rad);
+  odometry.pose.pose = tf2::toMsg(inSpace(result.T_odom_base));
   fill(odometry::spatialCovariance(odometry::inAxesOf(result.T_odom_base, result.pose_covariance)),
        odometry.pose.covariance);
   odometry.twist.twist.linear.x = result.twist.x();

@@ -51,13 +51,14 @@ WheelOdometryNode::WheelOdometryNode(ros::NodeHandle handle, ros::NodeHandle pri
       params_(readWheelParams(private_handle_)),
       session_(params_.odometry, params_.imu_wait_s),
       tf_listener_(tf_buffer_),
-      odometry_publisher_(handle_.advertise<nav_msgs::Odometry>(ros_io::topics::kWheelOdometry, kQueue)),
       problems_(kRepeat_s),
       updater_(handle_, private_handle_, name_),
       last_ticks_s_(steadyNow_s()) {
   ticks_ = handle_.subscribe(ros_io::topics::kWheelTicks, kQueue, &WheelOdometryNode::handleTicks, this);
   if (params_.imu)
     imu_ = handle_.subscribe(ros_io::topics::kImu, kQueue, &WheelOdometryNode::handleImu, this);
+  // Who sees it advertised knows that the node listens to everything.
+  odometry_publisher_ = handle_.advertise<nav_msgs::Odometry>(ros_io::topics::kWheelOdometry, kQueue);
   set_pose_ = handle_.advertiseService("wheel/set_pose", &WheelOdometryNode::handleSetPose, this);
   updater_.setHardwareID("none");
   updater_.add("wheel odometry", this, &WheelOdometryNode::fillStatus);
@@ -80,12 +81,12 @@ void WheelOdometryNode::handleImu(const sensor_msgs::Imu::ConstPtr& message) {
   if (!session_.knowsImu()) {
     const std::string frame = ros_io::withoutSlash(message->header.frame_id);
     try {
-      const auto transform = frame == params_.base_frame
-                                 ? geometry_msgs::TransformStamped()
-                                 : tf_buffer_.lookupTransform(params_.base_frame, frame, ros::Time(0));
-      const bool same = frame == params_.base_frame;
-      session_.setImuMounting(same ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
-                                   : Eigen::Matrix3d(ros_io::toIsometry(transform.transform).linear()));
+      Eigen::Matrix3d R_base_imu = Eigen::Matrix3d::Identity();
+      if (frame != params_.base_frame) {
+        const auto transform = tf_buffer_.lookupTransform(params_.base_frame, frame, ros::Time(0));
+        R_base_imu = ros_io::toIsometry(transform.transform).linear();
+      }
+      session_.setImuMounting(R_base_imu);
       clear("imu");
       ROS_INFO_STREAM(name_ << ": the yaw comes from the IMU " << frame);
     } catch (const tf2::TransformException& error) {

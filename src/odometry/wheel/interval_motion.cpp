@@ -4,7 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/angles.h"
+
 namespace stereo_nav::odometry {
+
+double meanSteering_rad(double from_rad, double to_rad) {
+  return from_rad + 0.5 * wrapRadians(to_rad - from_rad);
+}
 
 IntervalMotion solveInterval(const kinematics::Drive& drive, const WheelInterval& interval) {
   const std::size_t count = drive.size();

@@ -33,6 +33,9 @@ struct IntervalMotion {
   int redundancy = 0;
 };
 
+/// The steering angle halfway between two readings, taken the short way round.
+double meanSteering_rad(double from_rad, double to_rad);
+
 /// Weighted least squares over the rows of all wheels and the yaw. The motion is zero where the wheels that
 /// are not left out do not determine it.
 IntervalMotion solveInterval(const kinematics::Drive& drive, const WheelInterval& interval);

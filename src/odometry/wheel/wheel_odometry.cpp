@@ -29,7 +29,7 @@ WheelOdometry::WheelOdometry(const WheelOdometryParams& params)
       covariance_(drive_.size(), {params_.scale_sigma, params_.yaw_drift_sigma_rad_per_s}) {
   step_.slip_variance_m2.assign(drive_.size(), 0.0);
   for (const auto& wheel : params_.drive.wheels)
-    reading_variance_m2_.push_back(std::pow(params_.pulse_sigma * wheel.metresPerPulse(), 2));
+    reading_variance_m2_.push_back(params_.readingVariance_m2(wheel));
 }
 
 void WheelOdometry::setPose(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance) {
@@ -65,15 +65,12 @@ void WheelOdometry::measureInterval(const WheelSample& sample) {
   for (std::size_t i = 0; i < drive_.size(); ++i) {
     const auto pulses = pulsesBetween(last_->pulses[i], sample.pulses[i], params_.counter_bits);
     interval.distance_m[i] = static_cast<double>(pulses) * params_.drive.wheels[i].metresPerPulse();
-    step_.slip_variance_m2[i] =
-        slip_factor_ * params_.slip_sigma_m * params_.slip_sigma_m * std::abs(interval.distance_m[i]);
+    step_.slip_variance_m2[i] = slip_factor_ * params_.slipVariance_m2(interval.distance_m[i]);
     interval.variance_m2[i] = step_.slip_variance_m2[i] + 2.0 * reading_variance_m2_[i];
   }
   interval.steering_rad.resize(sample.steering_rad.size());
-  for (std::size_t i = 0; i < sample.steering_rad.size(); ++i) {
-    const double from = last_->steering_rad[i];
-    interval.steering_rad[i] = from + 0.5 * wrapRadians(sample.steering_rad[i] - from);
-  }
+  for (std::size_t i = 0; i < sample.steering_rad.size(); ++i)
+    interval.steering_rad[i] = meanSteering_rad(last_->steering_rad[i], sample.steering_rad[i]);
   interval.yaw_rad.reset();
   if (sample.yaw_rad && last_->yaw_rad) interval.yaw_rad = wrapRadians(*sample.yaw_rad - *last_->yaw_rad);
   interval.yaw_variance_rad2 = params_.yaw_sigma_rad * params_.yaw_sigma_rad * step_.duration_s;

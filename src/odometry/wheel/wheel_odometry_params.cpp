@@ -1,9 +1,19 @@
 #include "odometry/wheel/wheel_odometry_params.h"
 
+#include <cmath>
+
 #include "kinematics/drive_file.h"
 #include "stereo_nav/core/parameters.h"
 
 namespace stereo_nav::odometry {
+
+double WheelOdometryParams::readingVariance_m2(const kinematics::WheelParams& wheel) const {
+  return std::pow(pulse_sigma * wheel.metresPerPulse(), 2);
+}
+
+double WheelOdometryParams::slipVariance_m2(double distance_m) const {
+  return slip_sigma_m * slip_sigma_m * std::abs(distance_m);
+}
 
 void WheelOdometryParams::describe(ParameterVisitor& visitor) {
   visitor.integer("counter_bits", counter_bits, {8, 63}, "bits",

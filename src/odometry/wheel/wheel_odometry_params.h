@@ -19,6 +19,11 @@ struct WheelOdometryParams {
   double speed_window_s = 0.1;
   bool as_published = false;
 
+  /// Of the place that one reading of a wheel's counter gives, m^2.
+  double readingVariance_m2(const kinematics::WheelParams& wheel) const;
+  /// Of what a wheel slips while it rolls so far, m^2.
+  double slipVariance_m2(double distance_m) const;
+
   /// All but the drive, which has a section of its own in the rig file.
   void describe(ParameterVisitor& visitor);
 };

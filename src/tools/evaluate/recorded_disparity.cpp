@@ -17,13 +17,11 @@ constexpr double kSameStamp_s = 1e-6;
 }  // namespace
 
 RecordedDisparity::RecordedDisparity(const std::string& path) : path_(path) {
-  try {
+  ros_io::readBag(path, [&] {
     ros_io::openBag(bag_, path);
     view_ = std::make_unique<rosbag::View>(
         bag_, rosbag::TopicQuery(std::vector<std::string>{"camera/disparity", "/camera/disparity"}));
-  } catch (const rosbag::BagException& error) {
-    throw InputError(path + ": cannot be read as a bag: " + error.what());
-  }
+  });
   if (view_->size() == 0) {
     throw InputError(path + ": no messages on camera/disparity; record that topic, too");
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/angles.h"
+#include "core/planar_motion.h"
 #include "odometry/wheel/wheel_odometry.h"
 #include "ros/wheel_recording.h"
 #include "stereo_nav/core/input_error.h"
@@ -13,13 +14,6 @@ namespace stereo_nav::tools {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-Eigen::Isometry3d spatial(const Eigen::Isometry2d& T) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.linear().topLeftCorner<2, 2>() = T.linear();
-  result.translation().head<2>() = T.translation();
-  return result;
-}
 
 Trajectory truthOfBase(const EvaluateOptions& options, const ros_io::WheelRecording& recording) {
   if (!options.ground_truth || !std::filesystem::exists(*options.ground_truth)) {
@@ -67,7 +61,7 @@ WheelPass pass(const odometry::WheelOdometryParams& params, const ros_io::WheelR
     eval::FrameRecord frame;
     frame.timing.frame_ms = std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
     frame.time_s = estimate.time_s;
-    frame.T_odom_base = spatial(estimate.T_odom_base);
+    frame.T_odom_base = inSpace(estimate.T_odom_base);
     frame.pose_covariance =
         odometry::spatialCovariance(odometry::inAxesOf(estimate.T_odom_base, estimate.pose_covariance));
     result.frames.push_back(frame);
