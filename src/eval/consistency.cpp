@@ -31,17 +31,12 @@ double squared(const Vector6d& error, const Matrix6d& covariance, const std::vec
   return e.dot(P.ldlt().solve(e));
 }
 
-/// What the odometry knows of a motion.
-struct KnownAxes {
-  std::vector<Eigen::Index> all, translation, rotation;
-};
+}  // namespace
 
 KnownAxes knownAxes(bool planar) {
   if (planar) return {{0, 1, 5}, {0, 1}, {5}};
   return {{0, 1, 2, 3, 4, 5}, {0, 1, 2}, {3, 4, 5}};
 }
-
-}  // namespace
 
 Nees neesOver(double interval_s, const EvaluationInput& input) {
   const KnownAxes axes = knownAxes(input.planar);

@@ -1,8 +1,16 @@
 #pragma once
 
+#include <vector>
+
 #include "stereo_nav/eval/evaluation.h"
 
 namespace stereo_nav::eval {
+
+/// What an odometry knows of a pose, as indices into x, y, z and the rotations about them.
+struct KnownAxes {
+  std::vector<Eigen::Index> all, translation, rotation;
+};
+KnownAxes knownAxes(bool planar);
 
 /// Consistency of the covariances with the errors over pieces of `interval_s`, one after the other: from each
 /// piece the error of the relative pose, e = log(estimate^-1 truth), and the covariance P of `input`, with

@@ -125,6 +125,7 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
   summary.config = input.config;
   summary.imu_set_aside = input.imu_set_aside;
   summary.stretches = input.stretches;
+  summary.planar = input.planar;
   summary.frames = input.frames.size();
   summary.path_length_m =
       pathLength(positions(moved(Eigen::Isometry3d::Identity(), T_odom_base, input.T_base_camera)));

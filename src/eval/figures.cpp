@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/angles.h"
+#include "eval/consistency.h"
 #include "stereo_nav/eval/timing.h"
 
 namespace stereo_nav::eval {
@@ -122,19 +123,28 @@ Figure heightView(const Evaluation& evaluation) {
               pathPlot(evaluation, "1:4") + "\n"};
 }
 
+double threeSigma(const Matrix6d& covariance, const std::vector<Eigen::Index>& axes) {
+  double variance = 0.0;
+  for (const Eigen::Index axis : axes) variance += covariance(axis, axis);
+  return 3.0 * std::sqrt(variance);
+}
+
 Figure errorsOverTime(const Evaluation& evaluation) {
-  const auto errors = [](const FrameErrors& frame) -> Row {
+  const KnownAxes axes = knownAxes(evaluation.summary.planar);
+  const auto errors = [&axes](const FrameErrors& frame) -> Row {
     Row row{frame.time_s, frame.absolute_error_m, frame.rotation_error_deg, kNone, kNone};
     if (!frame.pose_covariance) return row;
-    row[3] = 3.0 * std::sqrt(frame.pose_covariance->topLeftCorner<3, 3>().trace());
-    row[4] = 3.0 * std::sqrt(frame.pose_covariance->bottomRightCorner<3, 3>().trace()) * kDegPerRad;
+    row[3] = threeSigma(*frame.pose_covariance, axes.translation);
+    row[4] = threeSigma(*frame.pose_covariance, axes.rotation) * kDegPerRad;
     return row;
   };
   return {
       "error",
-      "Error over time. Position: of the left camera, after SE(3) alignment without scale (what the absolute "
-      "error sums up). Rotation: with the first poses aligned, so that drift grows from zero. "
-      "Grey: three standard deviations of the published covariance, which both are to stay below nearly always.",
+      std::string("Error over time. Position: of ") +
+          (evaluation.summary.planar ? "base_link" : "the left camera") +
+          ", after SE(3) alignment without scale (what the absolute "
+          "error sums up). Rotation: with the first poses aligned, so that drift grows from zero. "
+          "Grey: three standard deviations of the published covariance, which both are to stay below nearly always.",
       header("error", 440) + dataBlock("errors", evaluation.frames, errors) + timeAxis(evaluation) +
           "unset xlabel\nset multiplot layout 2,1\nset yrange [0:*]\nset lmargin 10\nunset key\n"
           "set ylabel 'position [m]'\nplot $errors using 1:4 with lines ls 2, $errors using 1:2 with lines ls 1\n"
@@ -200,9 +210,11 @@ Figure stagesOverTime(const Evaluation& evaluation, const std::vector<FrameRecor
 }  // namespace
 
 std::vector<Figure> makeFigures(const Evaluation& evaluation, const std::vector<FrameRecord>& records) {
-  std::vector<Figure> figures = {topView(evaluation), heightView(evaluation)};
+  const bool planar = evaluation.summary.planar;  // neither height nor images
+  std::vector<Figure> figures = {topView(evaluation)};
+  if (!planar) figures.push_back(heightView(evaluation));
   if (hasGroundTruth(evaluation)) figures.push_back(errorsOverTime(evaluation));
-  figures.push_back(featuresOverTime(evaluation));
+  if (!planar) figures.push_back(featuresOverTime(evaluation));
   figures.push_back(stagesOverTime(evaluation, records));
   return figures;
 }

@@ -66,9 +66,10 @@ std::string tiles(const EvaluationSummary& summary, const TimingSummary& timing)
          tile(has_truth ? "path (ground truth)" : "path (estimate)", number(summary.path_length_m, 2, "m")) +
          tile("frames lost", std::to_string(summary.frames_lost) + " / " + std::to_string(summary.frames),
               summary.frames_lost > 0) +
-         tile("inliers / features, mean",
-              number(summary.inliers_mean, 0, "") + " / " + number(summary.features_mean, 0, "")) +
-         tile("time per frame, median", number(timing.median_ms, 1, "ms")) + "</div>\n";
+         (summary.planar ? ""
+                         : tile("inliers / features, mean", number(summary.inliers_mean, 0, "") + " / " +
+                                                                number(summary.features_mean, 0, ""))) +
+         tile("time per frame, median", number(timing.median_ms, summary.planar ? 4 : 1, "ms")) + "</div>\n";
 }
 
 std::string row(const std::string& name, const std::string& value, const std::string& meaning = "") {
@@ -90,7 +91,8 @@ std::string accuracyTable(const EvaluationSummary& s) {
          row("relative rotation", number(s.rpe_rotation_deg_per_m, 4, "\u00b0/m"),
              "mean over the same pieces") +
          row("absolute (ATE)", number(s.ate_rmse_m, 4, "m"),
-             "RMSE of the left camera's positions after SE(3) alignment without scale") +
+             std::string("RMSE of the positions of ") + (s.planar ? "base_link" : "the left camera") +
+                 " after SE(3) alignment without scale") +
          row("at the end", number(s.end_error_percent, 3, "%"),
              "of the path length, with the first poses aligned") +
          row("RMSE along x, y", number(s.rmse_x_m, 3, "m") + ", " + number(s.rmse_y_m, 3, "m"),

@@ -11,9 +11,9 @@ namespace stereo_nav::kinematics {
 namespace {
 
 constexpr const char* kExample =
-    "; a differential drive looks like this:\ndrive:\n  wheels: 2\n"
-    "  wheel_1: {name: left, kind: fixed, y_m: 0.2, radius_m: 0.05, pulses_per_turn: 1024}\n"
-    "  wheel_2: {name: right, kind: fixed, y_m: -0.2, radius_m: 0.05, pulses_per_turn: 1024}";
+    "; a differential drive looks like this: `drive: {wheels: 2, "
+    "wheel_1: {name: left, kind: fixed, y_m: 0.2, radius_m: 0.05, pulses_per_turn: 1024}, "
+    "wheel_2: {name: right, kind: fixed, y_m: -0.2, radius_m: 0.05, pulses_per_turn: 1024}}`";
 
 std::string wheelName(std::size_t index) {
   return "wheel_" + std::to_string(index + 1);

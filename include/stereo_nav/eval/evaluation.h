@@ -96,6 +96,7 @@ struct EvaluationSummary {
   std::size_t stretches = 1;                       ///< EvaluationInput::stretches
   std::size_t frames_with_ground_truth = 0;        ///< those the errors are taken over
   std::array<Nees, kNeesIntervals_s.size()> nees;  ///< over kNeesIntervals_s
+  bool planar = false;                             ///< EvaluationInput::planar; not in summary.json
 };
 
 /// One frame as the report draws it.

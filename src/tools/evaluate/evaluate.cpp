@@ -75,8 +75,9 @@ void printConsistency(const eval::EvaluationSummary& summary) {
   for (std::size_t k = eval::kNeesIntervals_s.size(); k-- > 0;) {
     const eval::Nees& nees = summary.nees[k];
     if (nees.pairs == 0) continue;
-    std::printf("  NEES over %-19g %.3g, %d expected (%zu pieces)\n", eval::kNeesIntervals_s[k], nees.mean,
-                nees.expected, nees.pairs);
+    const std::string name = fmt::format("NEES over {:g} s", eval::kNeesIntervals_s[k]);
+    std::printf("  %-28s %.3g, %d expected (%zu pieces)\n", name.c_str(), nees.mean, nees.expected,
+                nees.pairs);
     return;
   }
 }
