@@ -78,6 +78,10 @@ CameraCalibration loadCameraCalibration(const std::string& path) {
   }
 }
 
+StereoCalibrationPair loadStereoCalibration(const std::string& folder) {
+  return {loadCameraCalibration(folder + "/left.yaml"), loadCameraCalibration(folder + "/right.yaml")};
+}
+
 CameraCalibration scaled(const CameraCalibration& calibration, double factor) {
   CameraCalibration result = calibration;
   result.width = static_cast<int>(std::lround(factor * calibration.width));

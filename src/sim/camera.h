@@ -32,6 +32,15 @@ struct CameraCalibration {
 /// Throws std::runtime_error that names the file and what is missing.
 CameraCalibration loadCameraCalibration(const std::string& path);
 
+/// Calibrations of the two raw cameras, with their rectification.
+struct StereoCalibrationPair {
+  CameraCalibration left;
+  CameraCalibration right;
+};
+
+/// Reads left.yaml and right.yaml of a folder.
+StereoCalibrationPair loadStereoCalibration(const std::string& folder);
+
 /// The same lens before a sensor with `factor` times the pixels in each direction.
 CameraCalibration scaled(const CameraCalibration& calibration, double factor);
 

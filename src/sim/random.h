@@ -57,7 +57,8 @@ enum class Stream : std::uint64_t {
   kImu,
   kLight,
   kWheelGeometry,
-  kWheelSlip
+  kWheelSlip,
+  kCalibration
 };
 
 }  // namespace stereo_nav::sim

@@ -177,6 +177,7 @@ void Scenario::describe(ParameterVisitor& visitor) {
   visitSection(visitor, "room", scene.room);
   visitSection(visitor, "motion", motion);
   visitSection(visitor, "rig", rig);
+  visitSection(visitor, "calibration_error", calibration_error);
   visitSection(visitor, "timing", timing);
   visitSection(visitor, "sensor", sensor);
   visitSection(visitor, "left", left);

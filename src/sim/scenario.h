@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/rig_file.h"
+#include "sim/calibration_error.h"
 #include "sim/camera_clocks.h"
 #include "sim/image_sensor.h"
 #include "sim/imu_model.h"
@@ -42,6 +43,7 @@ struct Scenario {
   std::vector<Event> events;
   MotionParams motion;
   RigParams rig;
+  CalibrationErrorParams calibration_error;
   TimingParams timing;
   SensorParams sensor;
   CameraResponse left, right;

@@ -25,10 +25,6 @@ double share(const Event& event, double time_s) {
 
 }  // namespace
 
-StereoCalibrationPair loadStereoCalibration(const std::string& folder) {
-  return {loadCameraCalibration(folder + "/left.yaml"), loadCameraCalibration(folder + "/right.yaml")};
-}
-
 Simulation::Simulation(const Scenario& scenario, const StereoCalibrationPair& calibration, std::uint64_t seed)
     : scenario_(scenario),
       seed_(seed),
@@ -37,23 +33,26 @@ Simulation::Simulation(const Scenario& scenario, const StereoCalibrationPair& ca
       pairs_(pairInstants(scenario.timing, trajectory_.duration_s(), seed)),
       imu_(simulateImu(scenario.imu, trajectory_, trajectory_.duration_s(), seed)),
       true_drive_(trueDrive(scenario.wheels, scenario.drive, seed)),
-      left_(makeCamera(Side::kLeft, scaled(calibration.left, scenario.rig.image_scale))),
-      right_(makeCamera(Side::kRight, scaled(calibration.right, scenario.rig.image_scale))) {
+      nominal_{scaled(calibration.left, scenario.rig.image_scale),
+               scaled(calibration.right, scenario.rig.image_scale)} {
+  const TrueCameras cameras = trueCameras(scenario.calibration_error, nominal_, seed);
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    (side == Side::kLeft ? left_ : right_)->exposures = planned(side);
+    std::unique_ptr<Camera>& made = side == Side::kLeft ? left_ : right_;
+    made = makeCamera(side, cameras);
+    made->exposures = planned(side);
   }
   if (!true_drive_.wheels.empty()) wheels_ = simulateWheels(scenario.wheels, true_drive_, trajectory_, seed);
 }
 
-std::unique_ptr<Simulation::Camera> Simulation::makeCamera(Side side,
-                                                           const CameraCalibration& calibration) const {
+std::unique_ptr<Simulation::Camera> Simulation::makeCamera(Side side, const TrueCameras& cameras) const {
+  const CameraCalibration& calibration = of(cameras.calibration, side);
   Eigen::Isometry3d T_rectified_raw = Eigen::Isometry3d::Identity();
   T_rectified_raw.linear() = calibration.R;
   T_rectified_raw.translation().x() = calibration.offsetX_m();
   const CameraResponse& response = side == Side::kLeft ? scenario_.left : scenario_.right;
   return std::make_unique<Camera>(
       Camera{calibration,
-             scenario_.rig.T_base_camera() * T_rectified_raw,
+             scenario_.rig.T_base_camera() * cameras.T_nominal_true * T_rectified_raw,
              Renderer(scene_, calibration, scenario_.rig.samples_per_pixel),
              ImageSensor(calibration.width, calibration.height, scenario_.sensor, response),
              {}});

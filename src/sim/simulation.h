@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "sim/camera.h"
+#include "sim/calibration_error.h"
 #include "sim/exposure_plan.h"
 #include "sim/renderer.h"
 #include "sim/scenario.h"
@@ -13,15 +13,6 @@
 namespace stereo_nav::sim {
 
 enum class Side { kLeft, kRight };
-
-/// Calibrations of the two raw cameras, with their rectification.
-struct StereoCalibrationPair {
-  CameraCalibration left;
-  CameraCalibration right;
-};
-
-/// Reads left.yaml and right.yaml of a folder.
-StereoCalibrationPair loadStereoCalibration(const std::string& folder);
 
 /// A scenario brought to life with a seed: what the sensors deliver and the truth, all as functions of time.
 /// Const methods may be called from several threads; results depend on the seed alone.
@@ -32,7 +23,8 @@ class Simulation {
 
   double duration_s() const { return trajectory_.duration_s(); }
   const Scenario& scenario() const { return scenario_; }
-  const CameraCalibration& calibration(Side side) const { return camera(side).calibration; }
+  /// What the calibration says of a camera, which differs from the true one by scenario().calibration_error.
+  const CameraCalibration& calibration(Side side) const { return of(nominal_, side); }
   const Trajectory& trajectory() const { return trajectory_; }
   const std::vector<PairInstants>& pairs() const { return pairs_; }
   const std::vector<ImuSample>& imu() const { return imu_; }
@@ -48,19 +40,22 @@ class Simulation {
   /// The raw, distorted image of a pair, CV_8UC1.
   cv::Mat image(Side side, std::size_t pair) const;
 
-  /// Pose of the raw optical frame of a camera.
+  /// True pose of the raw optical frame of a camera.
   Eigen::Isometry3d cameraPose(Side side, double time_s) const;
 
  private:
   struct Camera {
-    CameraCalibration calibration;
+    CameraCalibration calibration;  ///< the true one
     Eigen::Isometry3d T_base_raw;
     Renderer renderer;
     ImageSensor sensor;
     std::vector<ExposureSetting> exposures;  ///< of each pair's image
   };
 
-  std::unique_ptr<Camera> makeCamera(Side side, const CameraCalibration& calibration) const;
+  static const CameraCalibration& of(const StereoCalibrationPair& pair, Side side) {
+    return side == Side::kLeft ? pair.left : pair.right;
+  }
+  std::unique_ptr<Camera> makeCamera(Side side, const TrueCameras& cameras) const;
   const Camera& camera(Side side) const { return side == Side::kLeft ? *left_ : *right_; }
   std::vector<ExposureSetting> planned(Side side) const;
   /// What a camera's pixels collect, before the amplifier and without noise: the camera's own, or those of a
@@ -80,6 +75,7 @@ class Simulation {
   std::vector<ImuSample> imu_;
   kinematics::DriveParams true_drive_;
   std::vector<SimulatedTicks> wheels_;
+  StereoCalibrationPair nominal_;
   std::unique_ptr<Camera> left_, right_;
 };
 

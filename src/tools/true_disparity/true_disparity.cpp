@@ -78,6 +78,10 @@ int run(int argc, char** argv) {
   if (!options) return 0;
   const sim::Simulation simulation(sim::loadScenario(options->scenario, options->overrides),
                                    sim::loadStereoCalibration(ros_io::thesisCalibrationFolder()), 1);
+  if (simulation.scenario().calibration_error.scale != 0.0) {
+    throw InputError(
+        "calibration_error.scale is set: cameras that are not as calibrated have no true disparity map");
+  }
   const sim::Scene scene(simulation.scenario().scene);
   const ros::Time start(1000000000, 0);  // as simulate
   ros_io::BagFile bag(options->output);
