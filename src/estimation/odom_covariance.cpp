@@ -29,7 +29,7 @@ void UncertaintyParams::describe(ParameterVisitor& visitor) {
                Change::kLive);
   visitor.real("distortion_sigma_px", distortion_sigma_px, {0.0, 100.0}, "px",
                "standard deviation of what lens model and rectification leave over", Change::kLive);
-  visitor.real("turn_sigma_share", turn_sigma_share, {0.0, 1.0}, "",
+  visitor.real("focal_sigma_share", focal_sigma_share, {0.0, 1.0}, "",
                "standard deviation of the focal length, as a share of it", Change::kLive);
   visitor.real("mounting_sigma_rad", mounting_sigma_rad, {0.0, 1.0}, "rad",
                "standard deviation of the left camera's mounting about each axis", Change::kLive);
@@ -94,6 +94,7 @@ OdomCovariance::Effects OdomCovariance::effects(const odometry::FrameResult& res
   Effects effects = Effects::Zero();
   effects.block<3, 1>(0, 0) = way_m;
   effects.block<3, 1>(0, 1) = result.scale_per_px * way_m;
+  effects(2, 2) = way_m.z();  // depths are wrong by its share, what lies across the view is not
   effects.block<3, 1>(3, 2) = logRotation(T_previous_current.linear());
   effects.rightCols<3>() = (adjoint(T_previous_current.inverse()) - Matrix6d::Identity()).rightCols<3>();
   return adjoint_base_camera_ * effects;
@@ -101,7 +102,7 @@ OdomCovariance::Effects OdomCovariance::effects(const odometry::FrameResult& res
 
 Matrix6d OdomCovariance::shared(const Effects& effects) const {
   Eigen::Matrix<double, kShared, 1> sigmas;
-  sigmas << params_.baseline_sigma_share, params_.column_offset_sigma_px, params_.turn_sigma_share,
+  sigmas << params_.baseline_sigma_share, params_.column_offset_sigma_px, params_.focal_sigma_share,
       Eigen::Vector3d::Constant(params_.mounting_sigma_rad);
   const Effects scaled = effects * sigmas.asDiagonal();
   return scaled * scaled.transpose();

@@ -14,7 +14,7 @@ struct UncertaintyParams {
   double baseline_sigma_share = 0.001;  ///< of the distance between the cameras, as a share of it
   double column_offset_sigma_px = 0.1;  ///< of the right camera's principal point
   double distortion_sigma_px = 0.2;     ///< of what lens model and rectification leave over
-  double turn_sigma_share = 0.001;      ///< of the focal length: turns are too large or small by this share
+  double focal_sigma_share = 0.001;     ///< of the focal length: depths and turns are wrong by this share
   double mounting_sigma_rad = 0.003;    ///< of the left camera's axes in base_link, about each
   double lost_speed_m_s = 1.0;          ///< while no motion is measured
   double lost_turn_rate_rad_s = 1.0;    ///< while no motion is measured
@@ -58,7 +58,7 @@ class OdomCovariance {
   Matrix6d unknownTwist() const;
 
  private:
-  /// Unit errors of the calibration: baseline, column offset, share of the turns, mounting about each axis.
+  /// Unit errors of the calibration: baseline, column offset, focal length, mounting about each axis.
   static constexpr int kShared = 6;
   using Effects = Eigen::Matrix<double, 6, kShared>;
 

@@ -48,7 +48,7 @@ BaseOdometry started() {
 UncertaintyParams exactCalibration() {
   UncertaintyParams params;
   params.baseline_sigma_share = params.column_offset_sigma_px = 0.0;
-  params.distortion_sigma_px = params.turn_sigma_share = params.mounting_sigma_rad = 0.0;
+  params.distortion_sigma_px = params.focal_sigma_share = params.mounting_sigma_rad = 0.0;
   return params;
 }
 

@@ -25,7 +25,7 @@ odometry::FrameResult lost() {
 UncertaintyParams perfectCalibration() {
   UncertaintyParams params;
   params.baseline_sigma_share = params.column_offset_sigma_px = 0.0;
-  params.distortion_sigma_px = params.turn_sigma_share = params.mounting_sigma_rad = 0.0;
+  params.distortion_sigma_px = params.focal_sigma_share = params.mounting_sigma_rad = 0.0;
   return params;
 }
 
@@ -71,6 +71,24 @@ TEST_F(OdomCovarianceTest, NoiseOfMotionsAddsUpAndThatOfAPoseDoesNot) {
   for (int i = 0; i < 10; ++i) motion = covariance.addMotion(result, Eigen::Isometry3d::Identity(), 0.1);
   EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 10 * 1e-4 + 9e-4, 1e-9);
   EXPECT_NEAR(motion(0, 0), 9e-4 + 1e-4 + 9e-4, 1e-9) << "of the pose before, of the motion, of the pose";
+}
+
+TEST_F(OdomCovarianceTest, AnUncertainFocalLengthScalesTurnsAndTheWayAlongTheView) {
+  UncertaintyParams params = perfectCalibration();
+  params.focal_sigma_share = 0.01;
+  OdomCovariance along = started(params);
+  odometry::FrameResult result = ahead(0.0);
+  result.T_previous_current.translation().z() = 2.0;  // the camera looks along its z axis
+  add(along, result);
+  EXPECT_NEAR(along.pose(kLevel)(2, 2), 0.02 * 0.02, 1e-9);
+  OdomCovariance across = started(params);
+  add(across, ahead(2.0));
+  EXPECT_NEAR(across.pose(kLevel)(0, 0), 0.0, 1e-9);
+  OdomCovariance turning = started(params);
+  result = ahead(0.0);
+  result.T_previous_current.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  add(turning, result);
+  EXPECT_NEAR(turning.pose(kLevel)(4, 4), 0.005 * 0.005, 1e-9);
 }
 
 TEST_F(OdomCovarianceTest, AnUncertainBaselineMakesAnErrorThatGrowsWithTheDistance) {
