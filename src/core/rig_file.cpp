@@ -23,7 +23,7 @@ void refuseUnknownSections(const YAML::Node& rig, const std::string& source) {
     std::string names;
     for (const char* section :
          {rig_sections::kCameras, rig_sections::kImu, rig_sections::kMounting, rig_sections::kDisparity,
-          rig_sections::kDrive, rig_sections::kWheelOdometry}) {
+          rig_sections::kDrive, rig_sections::kWheelOdometry, rig_sections::kUncertainty}) {
       known = known || name == section;
       names += (names.empty() ? "" : " | ") + std::string(section);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/rig_file.h"
 #include "ros/parameter_server.h"
 #include "ros/set_pose_request.h"
 #include "stereo_nav/ros/conversions.h"
@@ -12,13 +13,14 @@ namespace stereo_nav::nodes {
 namespace {
 
 /// Names in the private namespace that are read elsewhere.
-const std::set<std::string> kForeignParameters = {"vo", "image_transport", "diagnostic_period"};
+const std::set<std::string> kForeignParameters = {"vo", "rig", "image_transport", "diagnostic_period"};
 
 constexpr double kTimerPeriod_s = 0.25;
 constexpr unsigned int kTicksPerReport = 4;
 
 VisualOdometryParams readNodeParams(const ros::NodeHandle& private_handle) {
   VisualOdometryParams params;
+  ros_io::readParameters({ros_io::rigSource(private_handle, rig_sections::kUncertainty)}, params.uncertainty);
   ros_io::readParameters({ros_io::serverSource(private_handle, kForeignParameters)}, params);
   params.waiting.wait_for_imu = params.imu != VisualOdometryParams::Imu::kNone;
   return params;

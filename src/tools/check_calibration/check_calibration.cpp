@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/atomic_file.h"
+#include "core/rig_file.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/conversions.h"
 #include "tools/check_calibration/check_report.h"
@@ -30,6 +31,7 @@ struct Options {
   double interval_s = 0.5;
   double duration_s = 120.0;
   std::string json;
+  std::string rig;
 };
 
 void parseSize(const std::string& size, calibration::Checkerboard& board) {
@@ -60,8 +62,11 @@ std::optional<Options> parse(int argc, char** argv) {
       ("interval", po::value(&options.interval_s)->default_value(options.interval_s),
        "seconds between two views, bag and live")  //
       ("duration", po::value(&options.duration_s)->default_value(options.duration_s),
-       "seconds to listen, live")  //
-      ("json", po::value(&options.json), "write the report into this file, too, as JSON");
+       "seconds to listen, live")                                                          //
+      ("json", po::value(&options.json), "write the report into this file, too, as JSON")  //
+      ("rig", po::value(&options.rig),
+       "rig file whose section uncertainty is set to the standard deviations found, from which the odometry computes "
+       "its covariances");
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "input", values)) return std::nullopt;
   if (values.count("input") != 0) options.input = values["input"].as<std::string>();
@@ -119,8 +124,14 @@ class Checker {
           " pairs: check --size, show the whole board to both cameras, sharp and with a white margin");
     }
     const auto check = calibration::checkCalibration(checked_.rig, views_, corners_);
-    std::cout << reportText(checked_, check);
-    if (!options_.json.empty()) writeFileAtomically(options_.json, reportJson(checked_, check));
+    const auto uncertainty = calibration::calibrationUncertainty(checked_.rig, checked_.board, views_);
+    std::cout << reportText(checked_, check, uncertainty);
+    if (!options_.json.empty()) writeFileAtomically(options_.json, reportJson(checked_, check, uncertainty));
+    if (!options_.rig.empty()) {
+      RigFile rig = RigFile::load(options_.rig);
+      setUncertainty(uncertainty, rig);
+      writeFileAtomically(options_.rig, rig.text());
+    }
     return check.good() ? 0 : 1;
   }
 

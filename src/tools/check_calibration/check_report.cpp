@@ -86,6 +86,34 @@ std::vector<std::string> allNotes(const CheckedInput& input, const CalibrationCh
   return notes;
 }
 
+struct NamedSigma {
+  const char* parameter;  ///< of estimation::UncertaintyParams
+  const char* meaning;
+  const std::optional<double>& value;
+};
+
+std::vector<NamedSigma> named(const calibration::CalibrationUncertainty& uncertainty) {
+  return {{"baseline_sigma_share", "of the distance between the cameras", uncertainty.baseline_share},
+          {"focal_sigma_share", "of the focal length", uncertainty.focal_share},
+          {"column_offset_sigma_px", "px of the right camera's columns", uncertainty.column_offset_px},
+          {"distortion_sigma_px", "px that the lens models leave over", uncertainty.distortion_px}};
+}
+
+std::string uncertaintyText(const calibration::CalibrationUncertainty& uncertainty) {
+  std::string text =
+      "\nstandard deviations of the calibration, `uncertainty` of the rig file (--rig writes them)\n";
+  for (const NamedSigma& one : named(uncertainty)) {
+    text +=
+        one.value
+            ? fmt::format("  {:<23} {:8.5f}  {}\n", one.parameter + std::string(":"), *one.value, one.meaning)
+            : fmt::format(
+                  "  {:<23} {:>8}  {}: the views do not tell; show the board near and far, tilted, all over "
+                  "the image\n",
+                  one.parameter + std::string(":"), "-", one.meaning);
+  }
+  return text;
+}
+
 std::string verdictText(const CalibrationCheck& check) {
   if (check.good()) return "good: every figure is within its limit\n";
   std::string text = "poor:\n";
@@ -132,7 +160,15 @@ std::string viewLine(const ViewFigures& view) {
                      view.epipolar_rms_px);
 }
 
-std::string reportText(const CheckedInput& input, const CalibrationCheck& check) {
+void setUncertainty(const calibration::CalibrationUncertainty& uncertainty, RigFile& rig) {
+  for (const NamedSigma& one : named(uncertainty)) {
+    if (one.value)
+      rig.setNumber({rig_sections::kUncertainty, one.parameter}, fmt::format("{:.5f}", *one.value));
+  }
+}
+
+std::string reportText(const CheckedInput& input, const CalibrationCheck& check,
+                       const calibration::CalibrationUncertainty& uncertainty) {
   const calibration::StereoRig& rig = input.rig;
   const ViewSize left = rawView(rig.left), right = rawView(rig.right), rectified = rectifiedView(rig);
   std::string text = "\n" + input.calibration + ", " + std::to_string(rig.rectified.width) + "x" +
@@ -163,12 +199,14 @@ std::string reportText(const CheckedInput& input, const CalibrationCheck& check)
     text += fmt::format("  {:<14} {:8.3f} {:9.2f} {:<2}  {}\n", one.name, one.value, one.limit, one.unit,
                         one.met() ? "good" : "poor");
   }
+  text += uncertaintyText(uncertainty);
   text += "\n" + verdictText(check);
   for (const std::string& note : allNotes(input, check)) text += "note: " + note + "\n";
   return text;
 }
 
-std::string reportJson(const CheckedInput& input, const CalibrationCheck& check) {
+std::string reportJson(const CheckedInput& input, const CalibrationCheck& check,
+                       const calibration::CalibrationUncertainty& uncertainty) {
   using nlohmann::json;
   const calibration::StereoRig& rig = input.rig;
   const auto size = [](const ViewSize& view) {
@@ -199,6 +237,8 @@ std::string reportJson(const CheckedInput& input, const CalibrationCheck& check)
                                   {"met", one.met()},
                                   {"remedy", one.met() ? "" : one.remedy}});
   }
+  for (const NamedSigma& one : named(uncertainty))
+    report["uncertainty"][one.parameter] = one.value ? json(*one.value) : json();
   for (int depth = 1; depth <= 10; ++depth) {
     report["depth_deviation_m"].push_back(
         {{"depth_m", depth}, {"deviation_m", check.depthNoise_m(rig.rectified, depth)}});

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "calibration/calibration_uncertainty.h"
+#include "core/rig_file.h"
 #include "stereo_nav/calibration/calibration_check.h"
 
 namespace stereo_nav::tools {
@@ -22,7 +24,12 @@ std::string viewLine(const calibration::ViewFigures& view);
 std::string viewHeading();
 
 /// The report for people, and the same for programs (JSON).
-std::string reportText(const CheckedInput& input, const calibration::CalibrationCheck& check);
-std::string reportJson(const CheckedInput& input, const calibration::CalibrationCheck& check);
+std::string reportText(const CheckedInput& input, const calibration::CalibrationCheck& check,
+                       const calibration::CalibrationUncertainty& uncertainty);
+std::string reportJson(const CheckedInput& input, const calibration::CalibrationCheck& check,
+                       const calibration::CalibrationUncertainty& uncertainty);
+
+/// Sets what is known in the section `uncertainty` of a rig file; the rest stays as it is.
+void setUncertainty(const calibration::CalibrationUncertainty& uncertainty, RigFile& rig);
 
 }  // namespace stereo_nav::tools

@@ -32,10 +32,9 @@ void readMethod(const po::variables_map& values, EvaluateOptions& options) {
     throw InputError("--method must be visual or wheel, not '" + method + "'");
   const bool wheel = method == "wheel";
   options.method = wheel ? EvaluatedMethod::kWheel : EvaluatedMethod::kVisual;
-  if (wheel != (values.count("rig") != 0))
-    throw InputError(wheel ? "--method wheel needs --rig FILE, a rig file with the section drive"
-                           : "--rig is for --method wheel; the cameras' mounting is read from the bag");
-  if (wheel) options.rig = values["rig"].as<std::string>();
+  if (values.count("rig") != 0) options.rig = values["rig"].as<std::string>();
+  if (wheel && options.rig.empty())
+    throw InputError("--method wheel needs --rig FILE, a rig file with the section drive");
   const std::string config = values.count("config") != 0 ? values["config"].as<std::string>()
                              : wheel                     ? "wheel.yaml"
                                                          : "vo.yaml";
@@ -54,7 +53,8 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("method", po::value<std::string>()->default_value("visual"),
        "visual: the odometry of the images; wheel: that of wheel_ticks, with imu/data where the bag has it")  //
       ("rig", po::value<std::string>(),
-       "rig file whose section drive describes the wheels, for --method wheel")  //
+       "rig file: for --method wheel its section drive, which describes the wheels; for visual its section uncertainty, "
+       "which says how good the calibration is. The cameras' mounting is read from the bag.")  //
       ("config", po::value<std::string>(),
        "parameters of the odometry: a path, or a file of the package's config folder (default: vo.yaml, or "
        "wheel.yaml for wheels)")  //

@@ -13,7 +13,8 @@ enum class EvaluatedMethod { kVisual, kWheel };
 struct EvaluateOptions {
   std::string bag;
   EvaluatedMethod method = EvaluatedMethod::kVisual;
-  std::string rig;                            ///< path of the rig file with the wheels, for kWheel
+  std::string
+      rig;  ///< path of the rig file: wheels, for kWheel; uncertainty, for kVisual; may be empty there
   std::string config;                         ///< path of the odometry's parameter file
   std::string disparity_config;               ///< path of the disparity map's parameter file
   std::optional<std::string> disparity_from;  ///< bag whose camera/disparity is taken; absent: computed

@@ -6,6 +6,7 @@
 
 #include "core/angles.h"
 #include "core/base_pose.h"
+#include "core/rig_file.h"
 #include "odometry/method/watched_odometry.h"
 #include "ros/imu_checks.h"
 #include "ros/package_files.h"
@@ -84,12 +85,13 @@ class Run {
  public:
   Run(const ros_io::Recording& recording, const ros_io::StereoProcessing& processing,
       const odometry::OdometryConfig& config, const std::optional<std::string>& disparity_bag,
-      const Eigen::Isometry3d& T_base_camera, const ImuMounting& imu)
+      const Eigen::Isometry3d& T_base_camera, const estimation::UncertaintyParams& uncertainty,
+      const ImuMounting& imu)
       : recording_(recording),
         processing_(processing),
         config_(config),
         T_base_camera_(T_base_camera),
-        uncertainty_(T_base_camera),
+        uncertainty_(uncertainty, T_base_camera),
         imu_problem_(imu.problem),
         odometry_(config_, processing.calibration(), {T_base_camera.linear(), imu.R_base_imu}),
         camera_order_(processing.calibration()) {
@@ -188,6 +190,12 @@ bool samePoses(const std::vector<eval::FrameRecord>& a, const std::vector<eval::
 EvaluationRun runEvaluation(const EvaluateOptions& options,
                             const std::function<void(std::size_t, std::size_t)>& progress) {
   const odometry::OdometryConfig config = odometry::loadOdometryConfig(options.config);
+  estimation::UncertaintyParams uncertainty;
+  if (!options.rig.empty()) {
+    const RigFile rig = RigFile::load(options.rig);
+    readParameters(rig.section(rig_sections::kUncertainty), rig.sectionName(rig_sections::kUncertainty),
+                   uncertainty);
+  }
   ros_io::DisparityParams disparity;
   readParameters(loadYamlFile(options.disparity_config), options.disparity_config, disparity);
 
@@ -212,7 +220,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
 
   for (int repetition = 0; repetition < options.repeat;) {
-    Run pass(recording, processing, config, options.disparity_from, T_base_camera, imu);
+    Run pass(recording, processing, config, options.disparity_from, T_base_camera, uncertainty, imu);
     std::vector<eval::FrameRecord> frames;
     recording.forEachPair([&](const ros_io::RawPair& pair) {
       frames.push_back(pass.handle(pair));

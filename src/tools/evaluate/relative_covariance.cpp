@@ -8,16 +8,18 @@ namespace stereo_nav::tools {
 namespace {
 
 /// Begins without any uncertainty but the floor.
-estimation::OdomCovariance started(const Eigen::Isometry3d& T_base_camera) {
-  estimation::OdomCovariance covariance(estimation::UncertaintyParams(), T_base_camera);
+estimation::OdomCovariance started(const estimation::UncertaintyParams& params,
+                                   const Eigen::Isometry3d& T_base_camera) {
+  estimation::OdomCovariance covariance(params, T_base_camera);
   covariance.start(Eigen::Matrix3d::Identity(), Matrix6d::Zero());
   return covariance;
 }
 
 }  // namespace
 
-RelativeCovariance::RelativeCovariance(const Eigen::Isometry3d& T_base_camera)
-    : T_base_camera_(T_base_camera), since_start_(started(T_base_camera)) {}
+RelativeCovariance::RelativeCovariance(const estimation::UncertaintyParams& params,
+                                       const Eigen::Isometry3d& T_base_camera)
+    : params_(params), T_base_camera_(T_base_camera), since_start_(started(params, T_base_camera)) {}
 
 Matrix6d RelativeCovariance::add(odometry::FrameResult result, double time_s) {
   result.features = {};
@@ -28,7 +30,7 @@ Matrix6d RelativeCovariance::add(odometry::FrameResult result, double time_s) {
 }
 
 Matrix6d RelativeCovariance::operator()(std::size_t from, std::size_t to) const {
-  estimation::OdomCovariance covariance(estimation::UncertaintyParams(), T_base_camera_);
+  estimation::OdomCovariance covariance(params_, T_base_camera_);
   covariance.start(Eigen::Matrix3d::Identity(), Matrix6d::Zero(), frames_[from].result.pose_noise);
   for (std::size_t i = from + 1; i <= to; ++i) addMotion(i, covariance);
   return covariance.pose(Eigen::Matrix3d::Identity());

@@ -7,10 +7,10 @@
 namespace stereo_nav::tools {
 
 /// What the frames of a run told of their uncertainty, and the covariances that follow from it: those that
-/// the node would publish with its default parameters.
+/// the node would publish.
 class RelativeCovariance {
  public:
-  explicit RelativeCovariance(const Eigen::Isometry3d& T_base_camera);
+  RelativeCovariance(const estimation::UncertaintyParams& params, const Eigen::Isometry3d& T_base_camera);
 
   /// The next frame, taken at `time_s`. Returns the covariance of its pose, axes of odom: m, rad.
   Matrix6d add(odometry::FrameResult result, double time_s);
@@ -27,6 +27,7 @@ class RelativeCovariance {
 
   void addMotion(std::size_t frame, estimation::OdomCovariance& covariance) const;
 
+  estimation::UncertaintyParams params_;
   Eigen::Isometry3d T_base_camera_;
   estimation::OdomCovariance since_start_;
   std::vector<Frame> frames_;

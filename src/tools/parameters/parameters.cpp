@@ -57,8 +57,8 @@ void printSensors() {
   printHeading(
       "## The rig file",
       "Sections `cameras` (as `stereo_capture`), `imu` (as `imu_bridge`), `disparity` (as "
-      "`stereo_image_proc/disparity`), `wheel_odometry` (as `wheel_odometry`, without its own), all below, and "
-      "`mounting`: where the sensors sit in `base_link`.");
+      "`stereo_image_proc/disparity`), `wheel_odometry` (as `wheel_odometry`, without its own), `uncertainty` (as "
+      "`visual_odometry`), all below, and `mounting`: where the sensors sit in `base_link`.");
   printTable(Mounting());
   printHeading(
       "### Section `drive`",

@@ -11,6 +11,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/rig_file.h"
 #include "stereo_nav/calibration/board_pose.h"
 #include "support/command.h"
 #include "support/simulated_board.h"
@@ -69,6 +70,21 @@ class CheckCalibrationTest : public ::testing::Test {
 };
 
 fs::path CheckCalibrationTest::folder;
+
+TEST_F(CheckCalibrationTest, WhatItFindsOfTheUncertaintyGoesIntoTheRigFile) {
+  std::ofstream(file("rig.yaml")) << "mounting:  # as measured\n  camera: {x_m: 0.1}\n";
+  const auto result = check(file("good") + " --rig " + file("rig.yaml") + " --json " + file("sigmas.json"));
+  ASSERT_EQ(result.status, 0) << result.output;
+  const RigFile rig = RigFile::load(file("rig.yaml"));
+  EXPECT_EQ(rig.text().rfind("mounting:  # as measured\n  camera: {x_m: 0.1}\n", 0), 0u) << rig.text();
+  const YAML::Node section = rig.section(rig_sections::kUncertainty);
+  const auto json = report("sigmas.json")["uncertainty"];
+  ASSERT_EQ(section.size(), 4u) << rig.text();
+  for (const auto& entry : section)
+    EXPECT_NEAR(entry.second.as<double>(), json[entry.first.as<std::string>()].get<double>(), 1e-5);
+  EXPECT_LT(section["baseline_sigma_share"].as<double>(), 0.005);
+  EXPECT_LT(section["distortion_sigma_px"].as<double>(), 0.1);
+}
 
 TEST_F(CheckCalibrationTest, AGoodCalibrationIsGoodAndTheBoardIsWhereItIs) {
   const auto result = check(file("good") + " --size 8x6 --square 0.051 --json " + file("good.json"));

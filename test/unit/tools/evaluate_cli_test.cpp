@@ -286,6 +286,20 @@ TEST_F(EvaluateTest, CovariancesAreAsLargeAsTheErrors) {
   }
 }
 
+TEST_F(EvaluateTest, TheRigFileSaysHowGoodTheCalibrationIs) {
+  std::ofstream(file("poor_rig.yaml")) << "uncertainty: {baseline_sigma_share: 0.2}\n";
+  const std::string command = file("room.bag") + " --output " + file("poor_rig");
+  ASSERT_EQ(evaluate(command, "vo.yaml").status, 0);
+  const auto sure = nlohmann::json::parse(contentOf(folder / "poor_rig/summary.json"))["nees"]["0.2"];
+  ASSERT_EQ(evaluate(command + " --rig " + file("poor_rig.yaml"), "vo.yaml").status, 0);
+  const auto unsure = nlohmann::json::parse(contentOf(folder / "poor_rig/summary.json"))["nees"]["0.2"];
+  EXPECT_LT(unsure["translation"].get<double>(), 0.9 * sure["translation"].get<double>());
+  std::ofstream(file("wrong_rig.yaml")) << "uncertainty: {baseline_sigma_share: -1}\n";
+  const auto result = evaluate(command + " --rig " + file("wrong_rig.yaml"), "vo.yaml");
+  EXPECT_EQ(result.status, 2) << result.output;
+  EXPECT_NE(result.output.find("baseline_sigma_share"), std::string::npos) << result.output;
+}
+
 TEST_F(EvaluateImuTest, OneIsLeftOutOnRequest) {
   for (const std::string bag : {"turn", "vision"}) {
     const auto result = evaluate(file(bag + ".bag") + " --no-imu --output " + file(bag + "_only"), "vo.yaml");
