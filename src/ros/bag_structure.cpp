@@ -107,7 +107,8 @@ class BagWalk {
 
   void check() {
     const std::string version = "#ROSBAG V2.0\n";
-    if (file_.size() < version.size() || file_.read(0, version.size()) != version) return;
+    if (file_.size() < version.size() || file_.read(0, version.size()) != version)
+      throw rosbag::BagFormatException("it does not begin as bags of version 2.0 do");
     std::uint64_t place = version.size();
     const Record header = record(place, file_.size());
     const auto index = header.fields.number<std::uint64_t>(rosbag::INDEX_POS_FIELD_NAME);
