@@ -16,7 +16,7 @@ set +u
 source "${STEREO_NAV_BUILD:-$STEREO_NAV_ROOT/build}/devel/setup.bash"
 set -u
 mkdir -p "$work"
-longest_s=30
+longest_s=20
 
 # drive camera clocks seed
 run() {
