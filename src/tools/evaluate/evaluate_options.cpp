@@ -78,6 +78,8 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("rolling-shutter-ms", po::value<double>(),
        "time from an image's first row to its last, instead of what the recording says; 0: global shutter. "
        "The stamps are taken as those of the middle row.")  //
+      ("planar", po::bool_switch(&options.on_floor),
+       "the robot drives on the plane of its start: height, roll and pitch are held there")  //
       ("no-imu", po::bool_switch(&options.no_imu),
        "the path of vision alone, as if the recording held no IMU")  //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
