@@ -19,8 +19,8 @@ struct FloorParams {
 
 /// A pose of base_link and its covariance: x y z, then rotation about x y z, axes of odom: m, rad.
 struct UncertainPose {
-  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
-  Matrix6d covariance = Matrix6d::Zero();
+  Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();  ///< base_link in odom
+  Matrix6d covariance = Matrix6d::Zero();                         ///< of it
 };
 
 /// The pose given that base_link is `height_m` above the plane z = 0 of odom and level, each within its sigma
