@@ -35,23 +35,20 @@ std::optional<TfminiFrame> TfminiParser::push(std::uint8_t byte) {
   while (true) {
     while (size_ > 0 && !headerAt(0)) drop(1);
     if (size_ < tfmini::kFrameBytes) return std::nullopt;
-    const bool behind_another = !first_ && skipped_ == 0;
     if (!good()) {
       ++counters_.bad_frames;
       drop(1);
-    } else if (behind_another) {
-      return take();
-    } else if (size_ < buffer_.size()) {
-      if (size_ > tfmini::kFrameBytes && !headerAt(tfmini::kFrameBytes)) {
-        drop(1);
-        continue;
-      }
-      return std::nullopt;
-    } else if (headerAt(tfmini::kFrameBytes)) {
-      return take();
-    } else {
-      drop(1);
+      continue;
     }
+    const bool behind_another = !first_ && skipped_ == 0;
+    if (behind_another) return take();
+    // The header behind it decides, of which two bytes, one or none have come.
+    if (size_ > tfmini::kFrameBytes && !headerAt(tfmini::kFrameBytes)) {
+      drop(1);
+      continue;
+    }
+    if (size_ < buffer_.size()) return std::nullopt;
+    return take();
   }
 }
 
