@@ -2,6 +2,7 @@
 #include <boost/program_options.hpp>
 #include <fstream>
 #include <iostream>
+#include <vector>
 
 #include "sensors/laser/emulation/emulated_scanner.h"
 #include "sensors/serial/emulation/emulated_adapter.h"
@@ -109,7 +110,8 @@ bool parse(int argc, char** argv, Options& o) {
 
 int run(int argc, char** argv) {
   Options options;
-  if (!parse(argc, argv, options)) return 0;
+  std::vector<char*> arguments = withoutRosArguments(argc, argv);
+  if (!parse(static_cast<int>(arguments.size()), arguments.data(), options)) return 0;
   LaserEmulator emulator(options);
   emulator.work();
   emulator.printCounts();

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iostream>
 #include <random>
+#include <vector>
 
 #include "sensors/range/tfmini_protocol.h"
 #include "sensors/serial/emulation/emulated_adapter.h"
@@ -118,7 +119,8 @@ bool parse(int argc, char** argv, Options& o) {
 
 int run(int argc, char** argv) {
   Options options;
-  if (!parse(argc, argv, options)) return 0;
+  std::vector<char*> arguments = withoutRosArguments(argc, argv);
+  if (!parse(static_cast<int>(arguments.size()), arguments.data(), options)) return 0;
   RangeEmulator emulator(options);
   emulator.work();
   emulator.printCounts();
