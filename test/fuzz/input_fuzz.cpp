@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "core/rig_file.h"
-#include "fuzz/device_fuzz.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/parameters.h"
 #include "stereo_nav/ros/conversions.h"
@@ -162,7 +161,6 @@ void readFuzzInput(const std::string& kind, const std::uint8_t* data, std::size_
       {"times", readTimes},
       {"names", readNames},
       {"bag", readBag}};
-  if (decodeFuzzInput(kind, data, size)) return;
   try {
     readers.at(kind)(std::string(reinterpret_cast<const char*>(data), size));
   } catch (const InputError&) {
