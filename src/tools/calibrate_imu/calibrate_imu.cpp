@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "sensors/serial/steady_clock.h"
 #include "stereo_nav/sensors/imu/calibration.h"
 #include "tools/common/command_line.h"
 #include "tools/common/imu_source.h"
@@ -42,8 +43,9 @@ bool parse(int argc, char** argv, Options& options) {
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "", values)) return false;
   if (options.source.port.empty()) throw std::runtime_error("no --port given; see calibrate_imu --help");
-  if (options.source.protocol != "raw") {
-    throw std::runtime_error("only raw modules can be calibrated: the angle module does it itself");
+  if (options.source.protocol == "angles") {
+    throw std::runtime_error(
+        "only raw modules and phones can be calibrated: the angle module does it itself");
   }
   options.source.finish();
   return true;
@@ -57,10 +59,10 @@ struct Collected {
 Collected collect(const Options& options, imu::GyroCalibrator& gyro) {
   Collected collected;
   double turns_end_s = 0.0;
-  const double given_up_s = imu::steadyNow_s() + options.gyro.duration_s + options.turns_s + kPatience_s;
+  const double given_up_s = serial::steadyNow_s() + options.gyro.duration_s + options.turns_s + kPatience_s;
   std::cout << "lay the module still for " << options.gyro.duration_s << " s" << std::endl;
   const auto keep_going = [&] {
-    const double now_s = imu::steadyNow_s();
+    const double now_s = serial::steadyNow_s();
     if (gyro.complete() && turns_end_s == 0.0) {
       if (!gyro.result().accepted) return false;
       turns_end_s = now_s + options.turns_s;

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <iostream>
 
+#include "sensors/serial/link_monitor.h"
 #include "stereo_nav/core/parameters.h"
 
 namespace stereo_nav::tools {
@@ -15,8 +16,8 @@ volatile std::sig_atomic_t interrupted = 0;
 void ImuSource::addOptions(boost::program_options::options_description& options) {
   namespace po = boost::program_options;
   options.add_options()                                                                             //
-      ("port", po::value(&port), "serial port of the module")                                       //
-      ("protocol", po::value(&protocol)->default_value(protocol), "angles or raw")                  //
+      ("port", po::value(&port), "serial port of the module, or udp:PORT, udp:ADDRESS:PORT")        //
+      ("protocol", po::value(&protocol)->default_value(protocol), "angles, raw or phone")           //
       ("baud", po::value(&device.baud_rate)->default_value(device.baud_rate), "speed of the line")  //
       ("angle-order", po::value(&angle_order)->default_value(angle_order),
        "yaw_pitch_roll or roll_pitch_yaw");
@@ -32,14 +33,15 @@ void ImuSource::finish() {
 imu::ImuDeviceStatus ImuSource::read(const std::function<bool()>& keep_going,
                                      const imu::ImuDevice::Sink& sink) const {
   std::signal(SIGINT, [](int) { interrupted = 1; });
-  imu::ImuDevice reader(device, imu::PortFinder(port));
-  imu::LinkState last = imu::LinkState::kWaiting;
+  imu::ImuDevice reader(device, serial::PortFinder(port));
+  serial::LinkState last = serial::LinkState::kWaiting;
   imu::ImuDeviceStatus result;
   while (interrupted == 0 && keep_going()) {
     reader.poll(0.1, sink);
     const imu::ImuDeviceStatus status = reader.status();
-    if (status.state == imu::LinkState::kStreaming) result = status;
-    const bool bad = status.state != imu::LinkState::kStreaming && status.state != imu::LinkState::kWaiting;
+    if (status.state == serial::LinkState::kStreaming) result = status;
+    const bool bad =
+        status.state != serial::LinkState::kStreaming && status.state != serial::LinkState::kWaiting;
     if (bad && status.state != last) std::cerr << port << ": " << status.message << "\n";
     last = status.state;
   }

@@ -84,24 +84,13 @@ po::options_description describeOptions(EmulatorOptions& o) {
   po::options_description visible(helpHeading(
       "usage: imu_emulator [options]",
       "Behaves like a serial IMU module on a USB adapter, on a pseudo-terminal whose path it prints."));
-  visible.add_options()                                                                 //
-      ("help,h", "this text")                                                           //
-      ("protocol", po::value<std::string>()->default_value("angles"), "angles or raw")  //
+  visible.add_options()                                                                        //
+      ("help,h", "this text")                                                                  //
+      ("protocol", po::value<std::string>()->default_value("angles"), "angles, raw or phone")  //
       ("angle-order", po::value<std::string>()->default_value("yaw_pitch_roll"),
        "yaw_pitch_roll or roll_pitch_yaw")                                                     //
       ("magnetometer", po::bool_switch(&o.magnetometer), "raw: send the magnetic field, too")  //
       ("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "frames per second")           //
-      ("baud", po::value(&o.baud_rate)->default_value(o.baud_rate),
-       "speed of the line; a reader that sets another one receives what it would on a wire")  //
-      ("batch", po::value(&o.batch_s)->default_value(o.batch_s),
-       "interval at which the adapter delivers bytes, s")                                                //
-      ("duration", po::value(&o.duration_s)->default_value(0.0), "seconds; 0: until interrupted")        //
-      ("wait-for-reader", po::bool_switch(&o.wait_for_reader), "begin when the port is opened")          //
-      ("link", po::value(&o.links)->composing(), "name for the port, a symbolic link; may be repeated")  //
-      ("replug-link", po::value(&o.replug_link),
-       "name that replaces the first --link after the module was plugged in again")  //
-      ("log", po::value(&o.log),
-       "CSV file: time of the steady clock, yaw, pitch, roll of every frame sent")  //
       ("motion", po::value<std::string>()->default_value("rates"),
        "rates (see --start, --rates), sway, turns (about each axis), its (angles whose bytes contain the frame header)")  //
       ("start", triple(0.0), "yaw pitch roll at the start, degrees")                                   //
@@ -122,17 +111,15 @@ po::options_description describeOptions(EmulatorOptions& o) {
       ("accelerometer-offset", triple(0.0), "x y z, m/s^2")  //
       ("accelerometer-gain", triple(1.0), "x y z")           //
       ("accelerometer-noise", po::value(&o.errors.accelerometer_noise_m_s2)->default_value(0.0),
-       "standard deviation, m/s^2")                                               //
-      ("seed", po::value(&o.seed)->default_value(1), "seed of noise and faults")  //
-      ("corrupt", po::value(&o.corrupt_probability)->default_value(0.0),
-       "share of bytes that are changed")                                                           //
-      ("drop", po::value(&o.drop_probability)->default_value(0.0), "share of bytes that are lost")  //
-      ("garbage", po::value(&o.garbage_probability)->default_value(0.0),
-       "share of frames that are followed by random bytes")                                    //
-      ("pause-at", po::value(&o.pause.start_s), "second at which the module falls silent")     //
-      ("pause-for", po::value(&o.pause.duration_s)->default_value(2.0), "seconds of silence")  //
-      ("unplug-at", po::value(&o.unplug.start_s), "second at which the cable is pulled")       //
-      ("unplug-for", po::value(&o.unplug.duration_s)->default_value(2.0), "seconds without the cable");
+       "standard deviation, m/s^2");
+  o.run.addOptions(visible);
+  visible.add_options()  //
+      ("udp", po::value<std::string>(),
+       "udp:ADDRESS:PORT or udp:PORT of this computer: send datagrams there instead; of the faults there are --corrupt, "
+       "--drop (share of datagrams) and the next two")  //
+      ("overtaken", po::value<double>()->default_value(0.0),
+       "share of datagrams that arrive behind their successor")  //
+      ("doubled", po::value<double>()->default_value(0.0), "share of datagrams that arrive twice");
   return visible;
 }
 
@@ -140,6 +127,19 @@ Eigen::Vector3d vectorOf(const po::variables_map& values, const std::string& opt
   const auto& numbers = values[option].as<std::vector<double>>();
   if (numbers.size() != 3) throw std::runtime_error("--" + option + " takes three numbers: x y z");
   return {numbers[0], numbers[1], numbers[2]};
+}
+
+imu::DatagramOptions datagramsOf(const po::variables_map& values, const serial::AdapterOptions& faults) {
+  const auto target = imu::parseUdpAddress(values["udp"].as<std::string>());
+  if (!target) throw std::runtime_error("--udp takes udp:PORT or udp:ADDRESS:PORT");
+  imu::DatagramOptions options;
+  options.target = *target;
+  options.drop_probability = faults.drop_probability;
+  options.corrupt_probability = faults.corrupt_probability;
+  options.overtake_probability = values["overtaken"].as<double>();
+  options.double_probability = values["doubled"].as<double>();
+  options.seed = faults.seed;
+  return options;
 }
 
 }  // namespace
@@ -159,17 +159,20 @@ std::optional<EmulatorOptions> parseEmulatorOptions(int argc, char** argv) {
     std::cout << visible << "\n";
     return std::nullopt;
   }
-  options.protocol =
-      choice<imu::Protocol>("protocol", values["protocol"].as<std::string>(),
-                            {{"angles", imu::Protocol::kAngles}, {"raw", imu::Protocol::kRaw}});
+  options.protocol = choice<imu::Protocol>(
+      "protocol", values["protocol"].as<std::string>(),
+      {{"angles", imu::Protocol::kAngles}, {"raw", imu::Protocol::kRaw}, {"phone", imu::Protocol::kPhone}});
   options.order = choice<imu::AngleOrder>("angle-order", values["angle-order"].as<std::string>(),
                                           {{"yaw_pitch_roll", imu::AngleOrder::kYawPitchRoll},
                                            {"roll_pitch_yaw", imu::AngleOrder::kRollPitchYaw}});
   options.errors.gyro_bias = vectorOf(values, "gyro-bias");
   options.errors.accelerometer_offset = vectorOf(values, "accelerometer-offset");
   options.errors.accelerometer_gain = vectorOf(values, "accelerometer-gain");
-  if (!(options.rate_hz > 0.0) || options.baud_rate <= 0 || options.batch_s < 0.0) {
-    throw std::runtime_error("--rate and --baud must be above 0, --batch 0 or more");
+  if (!(options.rate_hz > 0.0)) throw std::runtime_error("--rate must be above 0");
+  options.run.check();
+  if (values.count("udp") != 0) options.udp = datagramsOf(values, options.run.adapter);
+  if (options.protocol == imu::Protocol::kPhone && !options.udp) {
+    throw std::runtime_error("a phone sends UDP: --udp udp:5555 says where to");
   }
   if (options.follow_topic.empty()) options.motion = motionOf(values);
   return options;
