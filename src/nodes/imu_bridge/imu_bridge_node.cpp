@@ -9,6 +9,7 @@
 #include "core/rig_file.h"
 #include "nodes/imu_bridge/imu_messages.h"
 #include "ros/parameter_server.h"
+#include "sensors/serial/steady_clock.h"
 #include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::nodes {
@@ -39,7 +40,7 @@ ImuBridgeNode::ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandl
     : handle_(handle),
       private_handle_(private_handle),
       params_(readNodeParams(private_handle_)),
-      device_(params_.device, imu::PortFinder(params_.port, params_.by_id_directory)),
+      device_(params_.device, serial::PortFinder(params_.port, params_.by_id_directory)),
       updater_(handle_, private_handle_),
       estimator_(params_.filter, readCalibration(params_.calibration_file), params_.rate_window_s),
       live_parameters_(private_handle_, params_, [this](const ros_io::ImuBridgeParams& params) {
@@ -70,7 +71,7 @@ void ImuBridgeNode::run() {
 /// Stamps come from the steady clock, which clock synchronisation does not set; its offset to ROS time is
 /// measured for each stamp.
 ros::Time ImuBridgeNode::rosTime(double steady_s) {
-  ros::Time stamp = ros::Time::now() - ros::Duration(imu::steadyNow_s() - steady_s);
+  ros::Time stamp = ros::Time::now() - ros::Duration(serial::steadyNow_s() - steady_s);
   const ros::Duration one_microsecond(0, 1000);
   const bool clock_was_set_back = last_stamp_ - stamp > ros::Duration(1.0);
   if (stamp <= last_stamp_ && !clock_was_set_back) stamp = last_stamp_ + one_microsecond;
@@ -166,8 +167,8 @@ void ImuBridgeNode::watch(const ros::WallTimerEvent& /*event*/) {
 /// Logs changes at once, and repeats a problem every ten seconds.
 void ImuBridgeNode::reportState() {
   const imu::ImuDeviceStatus status = device_.status();
-  const bool good = status.state == imu::LinkState::kStreaming;
-  if (status.state == imu::LinkState::kWaiting) return;
+  const bool good = status.state == serial::LinkState::kStreaming;
+  if (status.state == serial::LinkState::kWaiting) return;
   const ros::WallTime now = ros::WallTime::now();
   const bool changed = status.state != reported_state_;
   if (!changed && (good || (now - reported_at_).toSec() < kRepeat_s)) return;
@@ -186,9 +187,9 @@ void ImuBridgeNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& stat
   const auto bad = device.counters.bad_frames - reported_counters_.bad_frames;
   const auto good = device.counters.frames - reported_counters_.frames;
   reported_counters_ = device.counters;
-  if (device.state == imu::LinkState::kWaiting) {
+  if (device.state == serial::LinkState::kWaiting) {
     status.summary(Level::WARN, device.message);
-  } else if (device.state != imu::LinkState::kStreaming) {
+  } else if (device.state != serial::LinkState::kStreaming) {
     status.summary(Level::ERROR, device.message);
   } else if (10 * bad > good) {
     status.summary(Level::WARN,

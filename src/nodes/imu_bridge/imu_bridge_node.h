@@ -50,7 +50,7 @@ class ImuBridgeNode {
   imu::ImuEstimator estimator_;
   std::optional<imu::GyroCalibrator> calibrator_;
 
-  imu::LinkState reported_state_ = imu::LinkState::kWaiting;
+  serial::LinkState reported_state_ = serial::LinkState::kWaiting;
   ros::WallTime reported_at_;
   imu::DecoderCounters reported_counters_;
   ros_io::LiveParameters<ros_io::ImuBridgeParams> live_parameters_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sensors/imu/little_endian.h"
+#include "sensors/serial/little_endian.h"
 
 namespace stereo_nav::imu {
 namespace {
@@ -61,7 +61,7 @@ void AngleFramer::alignToHeader() {
 std::optional<AngleCandidate> AngleFramer::decode() {
   std::array<double, 3> value{};
   for (std::size_t i = 0; i < value.size(); ++i) {
-    value[i] = static_cast<double>(readFloat(&buffer_[kHeaderBytes + 4 * i]));
+    value[i] = static_cast<double>(serial::readFloat(&buffer_[kHeaderBytes + 4 * i]));
   }
   AngleCandidate candidate;
   candidate.angles = order_ == AngleOrder::kYawPitchRoll ? ModuleAngles{value[0], value[1], value[2]}
@@ -89,9 +89,9 @@ void AngleFramer::drop(std::size_t count) {
 void encodeAngleFrame(const ModuleAngles& angles, AngleOrder order, std::uint8_t* frame) {
   const bool yaw_first = order == AngleOrder::kYawPitchRoll;
   std::copy(kHeader.begin(), kHeader.end(), frame);
-  writeFloat(static_cast<float>(yaw_first ? angles.yaw_deg : angles.roll_deg), frame + 3);
-  writeFloat(static_cast<float>(angles.pitch_deg), frame + 7);
-  writeFloat(static_cast<float>(yaw_first ? angles.roll_deg : angles.yaw_deg), frame + 11);
+  serial::writeFloat(static_cast<float>(yaw_first ? angles.yaw_deg : angles.roll_deg), frame + 3);
+  serial::writeFloat(static_cast<float>(angles.pitch_deg), frame + 7);
+  serial::writeFloat(static_cast<float>(yaw_first ? angles.roll_deg : angles.yaw_deg), frame + 11);
 }
 
 }  // namespace stereo_nav::imu

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "sensors/imu/frame_decoder.h"
-#include "sensors/imu/link_monitor.h"
-#include "sensors/imu/port_finder.h"
-#include "sensors/imu/serial_port.h"
-#include "sensors/imu/stamp_filter.h"
+#include "sensors/serial/link.h"
+#include "sensors/serial/link_monitor.h"
+#include "sensors/serial/port_finder.h"
+#include "sensors/serial/stamp_filter.h"
 
 namespace stereo_nav::imu {
 
@@ -20,10 +20,9 @@ struct ImuDeviceParams {
   int baud_rate = 115200;
   AngleOrder angle_order = AngleOrder::kYawPitchRoll;
   double latency_s = 0.0;
-  double retry_s = 0.5;
-  double reopen_silent_s = 5.0;
+  serial::LinkParams link;
   AngleGateParams gate;
-  StampFilterParams stamps;
+  serial::StampFilterParams stamps;
 
   void describe(ParameterVisitor& visitor);
 };
@@ -37,7 +36,7 @@ struct ImuReading {
 
 /// A snapshot for diagnostics. Jitters are standard deviations, see JitterMeter.
 struct ImuDeviceStatus {
-  LinkState state = LinkState::kDisconnected;
+  serial::LinkState state = serial::LinkState::kDisconnected;
   std::string message;  ///< what is seen; when something is wrong, also the likely cause and the remedy
   double rate_hz = 0.0;
   double arrival_jitter_s = 0.0;
@@ -46,16 +45,13 @@ struct ImuDeviceStatus {
   DecoderCounters counters;
 };
 
-/// Seconds of CLOCK_MONOTONIC, the clock of the readings' times.
-double steadyNow_s();
-
 /// A module on a serial port that may appear, disappear and fall silent. Faults of the line never throw: the
 /// device reports them, retries every `retry_s`, and resumes.
 class ImuDevice {
  public:
   using Sink = std::function<void(const ImuReading&)>;
 
-  ImuDevice(const ImuDeviceParams& params, PortFinder port);
+  ImuDevice(const ImuDeviceParams& params, serial::PortFinder port);
 
   /// Waits for bytes for at most `timeout_s` and passes on the readings that they complete. To be called from
   /// one thread in a loop.
@@ -64,22 +60,18 @@ class ImuDevice {
   ImuDeviceStatus status() const;
 
  private:
-  void tryOpen(double now_s);
-  void disconnect(const SerialError& error, double now_s);
-  void readOnce(double timeout_s, const Sink& sink);
+  std::shared_ptr<serial::ByteSource> open();
   void deliver(const DecodedFrame& frame, const Sink& sink);
-  std::string explain(LinkState state, double now_s) const;
+  std::string explain(const serial::LinkStatus& link) const;
 
   ImuDeviceParams params_;
-  PortFinder finder_;
+  serial::PortFinder finder_;
   std::unique_ptr<FrameDecoder> decoder_;
-  StampFilter stamps_;
-  std::unique_ptr<SerialPort> port_;
-  double next_attempt_s_ = 0.0;
+  serial::StampFilter stamps_;
+  serial::Link link_;
 
   mutable std::mutex mutex_;  ///< guards what follows
-  LinkMonitor link_;
-  JitterMeter jitter_;
+  serial::JitterMeter jitter_;
   ImuDeviceStatus status_;
 };
 

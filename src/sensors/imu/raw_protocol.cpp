@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sensors/imu/crc32.h"
-#include "sensors/imu/little_endian.h"
+#include "sensors/serial/crc32.h"
+#include "sensors/serial/little_endian.h"
 
 namespace stereo_nav::imu {
 namespace {
@@ -29,11 +29,12 @@ std::size_t payloadBytes(std::uint8_t type) {
 }
 
 void writeVector(const Eigen::Vector3d& v, std::uint8_t* bytes) {
-  for (int i = 0; i < 3; ++i) writeFloat(static_cast<float>(v[i]), bytes + 4 * i);
+  for (int i = 0; i < 3; ++i) serial::writeFloat(static_cast<float>(v[i]), bytes + 4 * i);
 }
 
 Eigen::Vector3d readVector(const std::uint8_t* bytes) {
-  return Eigen::Vector3f(readFloat(bytes), readFloat(bytes + 4), readFloat(bytes + 8)).cast<double>();
+  return Eigen::Vector3f(serial::readFloat(bytes), serial::readFloat(bytes + 4), serial::readFloat(bytes + 8))
+      .cast<double>();
 }
 
 bool within(const Eigen::Vector3d& v, double limit) {
@@ -48,8 +49,8 @@ bool possible(const RawMeasurement& measurement) {
 
 RawMeasurement decodePayload(const std::uint8_t* payload, bool with_magnetometer) {
   RawMeasurement measurement;
-  measurement.sequence = readUnsigned<std::uint16_t>(payload);
-  measurement.device_time_us = readUnsigned<std::uint32_t>(payload + 2);
+  measurement.sequence = serial::readUnsigned<std::uint16_t>(payload);
+  measurement.device_time_us = serial::readUnsigned<std::uint32_t>(payload + 2);
   measurement.angular_velocity = readVector(payload + 6);
   measurement.linear_acceleration = readVector(payload + 18);
   if (with_magnetometer) measurement.magnetic_field = readVector(payload + 30);
@@ -66,12 +67,12 @@ std::size_t raw_protocol::encode(const RawMeasurement& measurement, std::uint8_t
   frame[2] = type;
   frame[3] = static_cast<std::uint8_t>(payload_bytes);
   std::uint8_t* payload = frame + kPrefixBytes;
-  writeUnsigned(measurement.sequence, payload);
-  writeUnsigned(measurement.device_time_us, payload + 2);
+  serial::writeUnsigned(measurement.sequence, payload);
+  serial::writeUnsigned(measurement.device_time_us, payload + 2);
   writeVector(measurement.angular_velocity, payload + 6);
   writeVector(measurement.linear_acceleration, payload + 18);
   if (measurement.magnetic_field) writeVector(*measurement.magnetic_field, payload + 30);
-  writeUnsigned(crc32(frame + 2, 2 + payload_bytes), payload + payload_bytes);
+  serial::writeUnsigned(serial::crc32(frame + 2, 2 + payload_bytes), payload + payload_bytes);
   return kPrefixBytes + payload_bytes + kCrcBytes;
 }
 
@@ -107,7 +108,8 @@ bool RawParser::prefixAtFront() const {
 
 std::optional<RawFrame> RawParser::takeFrame(std::size_t frame_bytes) {
   const std::size_t checked_bytes = frame_bytes - 2 - raw_protocol::kCrcBytes;
-  if (crc32(&buffer_[2], checked_bytes) != readUnsigned<std::uint32_t>(&buffer_[2 + checked_bytes])) {
+  if (serial::crc32(&buffer_[2], checked_bytes) !=
+      serial::readUnsigned<std::uint32_t>(&buffer_[2 + checked_bytes])) {
     ++counters_.bad_crc;
     skip();
     return std::nullopt;

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "sensors/serial/steady_clock.h"
 #include "stereo_nav/sensors/imu/calibration.h"
 #include "tools/common/command_line.h"
 #include "tools/common/imu_source.h"
@@ -57,10 +58,10 @@ struct Collected {
 Collected collect(const Options& options, imu::GyroCalibrator& gyro) {
   Collected collected;
   double turns_end_s = 0.0;
-  const double given_up_s = imu::steadyNow_s() + options.gyro.duration_s + options.turns_s + kPatience_s;
+  const double given_up_s = serial::steadyNow_s() + options.gyro.duration_s + options.turns_s + kPatience_s;
   std::cout << "lay the module still for " << options.gyro.duration_s << " s" << std::endl;
   const auto keep_going = [&] {
-    const double now_s = imu::steadyNow_s();
+    const double now_s = serial::steadyNow_s();
     if (gyro.complete() && turns_end_s == 0.0) {
       if (!gyro.result().accepted) return false;
       turns_end_s = now_s + options.turns_s;

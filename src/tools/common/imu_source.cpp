@@ -3,6 +3,7 @@
 #include <csignal>
 #include <iostream>
 
+#include "sensors/serial/link_monitor.h"
 #include "stereo_nav/core/parameters.h"
 
 namespace stereo_nav::tools {
@@ -32,14 +33,15 @@ void ImuSource::finish() {
 imu::ImuDeviceStatus ImuSource::read(const std::function<bool()>& keep_going,
                                      const imu::ImuDevice::Sink& sink) const {
   std::signal(SIGINT, [](int) { interrupted = 1; });
-  imu::ImuDevice reader(device, imu::PortFinder(port));
-  imu::LinkState last = imu::LinkState::kWaiting;
+  imu::ImuDevice reader(device, serial::PortFinder(port));
+  serial::LinkState last = serial::LinkState::kWaiting;
   imu::ImuDeviceStatus result;
   while (interrupted == 0 && keep_going()) {
     reader.poll(0.1, sink);
     const imu::ImuDeviceStatus status = reader.status();
-    if (status.state == imu::LinkState::kStreaming) result = status;
-    const bool bad = status.state != imu::LinkState::kStreaming && status.state != imu::LinkState::kWaiting;
+    if (status.state == serial::LinkState::kStreaming) result = status;
+    const bool bad =
+        status.state != serial::LinkState::kStreaming && status.state != serial::LinkState::kWaiting;
     if (bad && status.state != last) std::cerr << port << ": " << status.message << "\n";
     last = status.state;
   }

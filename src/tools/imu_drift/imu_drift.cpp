@@ -14,6 +14,7 @@
 #include "sensors/imu/allan_deviation.h"
 #include "sensors/imu/drift.h"
 #include "sensors/imu/imu_estimator.h"
+#include "sensors/serial/steady_clock.h"
 #include "tools/common/command_line.h"
 #include "tools/common/imu_source.h"
 #include "tools/common/program.h"
@@ -40,9 +41,9 @@ RestRecording recordFromPort(const Options& options, imu::ImuDeviceStatus& statu
   RestRecording recording;
   imu::ImuEstimator estimator({}, {}, 0.02);
   double start_s = -1.0, now_s = 0.0;
-  const double given_up_s = imu::steadyNow_s() + options.duration_s + 30.0;
+  const double given_up_s = serial::steadyNow_s() + options.duration_s + 30.0;
   const auto keep_going = [&] {
-    return (start_s < 0.0 || now_s - start_s < options.duration_s) && imu::steadyNow_s() < given_up_s;
+    return (start_s < 0.0 || now_s - start_s < options.duration_s) && serial::steadyNow_s() < given_up_s;
   };
   status = options.source.read(keep_going, [&](const imu::ImuReading& reading) {
     now_s = reading.time_s;

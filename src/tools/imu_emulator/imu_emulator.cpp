@@ -10,9 +10,10 @@
 #include <random>
 #include <thread>
 
-#include "sensors/imu/emulation/pseudo_terminal.h"
-#include "sensors/imu/emulation/serial_line.h"
 #include "sensors/imu/imu_device.h"
+#include "sensors/serial/emulation/pseudo_terminal.h"
+#include "sensors/serial/emulation/serial_line.h"
+#include "sensors/serial/steady_clock.h"
 #include "tools/common/program.h"
 #include "tools/imu_emulator/imu_emulator_options.h"
 
@@ -37,7 +38,7 @@ class Emulator {
         faults_(options_.corrupt_probability, options_.drop_probability, options_.seed + 1),
         random_(options_.seed + 2),
         line_(options_.baud_rate, options_.batch_s),
-        start_s_(imu::steadyNow_s()) {
+        start_s_(serial::steadyNow_s()) {
     if (!options_.log.empty()) {
       log_.open(options_.log);
       log_.precision(17);
@@ -85,7 +86,7 @@ class Emulator {
       plugIn();
     }
     std::vector<std::uint8_t> bytes;
-    line_.collect(imu::steadyNow_s(), bytes);
+    line_.collect(serial::steadyNow_s(), bytes);
     if (!terminal_) {
       kernel_buffer_.clear();
       return;
@@ -112,14 +113,14 @@ class Emulator {
     while (interrupted == 0 && !terminal_->baudRate()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    start_s_ = imu::steadyNow_s();
+    start_s_ = serial::steadyNow_s();
   }
 
-  double elapsed_s() const { return imu::steadyNow_s() - start_s_; }
+  double elapsed_s() const { return serial::steadyNow_s() - start_s_; }
 
  private:
   void plugIn() {
-    terminal_ = std::make_unique<imu::PseudoTerminal>();
+    terminal_ = std::make_unique<serial::PseudoTerminal>();
     for (const std::string& link : options_.links) terminal_->link(link);
     std::cout << "port " << terminal_->path() << std::endl;
   }
@@ -128,7 +129,7 @@ class Emulator {
     const int reader_baud = terminal_->baudRate().value_or(options_.baud_rate);
     if (reader_baud == options_.baud_rate) return bytes;
     if (!receiver_ || receiver_baud_ != reader_baud) {
-      receiver_ = std::make_unique<imu::MismatchedReceiver>(options_.baud_rate, reader_baud);
+      receiver_ = std::make_unique<serial::MismatchedReceiver>(options_.baud_rate, reader_baud);
       receiver_baud_ = reader_baud;
     }
     std::vector<std::uint8_t> received;
@@ -146,12 +147,12 @@ class Emulator {
 
   EmulatorOptions options_;
   imu::EmulatedModule module_;
-  imu::LineFaults faults_;
+  serial::LineFaults faults_;
   std::mt19937 random_;
-  imu::SerialLine line_;
-  std::unique_ptr<imu::MismatchedReceiver> receiver_;
+  serial::SerialLine line_;
+  std::unique_ptr<serial::MismatchedReceiver> receiver_;
   int receiver_baud_ = 0;
-  std::unique_ptr<imu::PseudoTerminal> terminal_;
+  std::unique_ptr<serial::PseudoTerminal> terminal_;
   std::ofstream log_;
   double start_s_;
   double frame_time_s_ = 0.0;

@@ -8,8 +8,8 @@
 
 #include "core/angles.h"
 #include "sensors/imu/emulation/emulated_module.h"
-#include "sensors/imu/emulation/serial_line.h"
 #include "sensors/imu/frame_decoder.h"
+#include "sensors/serial/emulation/serial_line.h"
 #include "unit/sensors/imu/module_stream.h"
 
 namespace stereo_nav::imu {
@@ -43,7 +43,7 @@ Outcome passDamaged(const Damage& damage) {
   ModuleErrors errors;
   errors.angle_noise_deg = 0.02;
   EmulatedModule module(Protocol::kAngles, AngleOrder::kYawPitchRoll, false, errors, 11);
-  LineFaults faults(damage.corrupt, damage.lost, damage.seed);
+  serial::LineFaults faults(damage.corrupt, damage.lost, damage.seed);
   const auto decoder = makeAngleDecoder(AngleOrder::kYawPitchRoll, AngleGateParams(), kBaud);
   struct Sent {
     ModuleAngles angles;

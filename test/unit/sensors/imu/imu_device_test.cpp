@@ -10,7 +10,9 @@
 #include <thread>
 
 #include "sensors/imu/emulation/emulated_module.h"
-#include "sensors/imu/emulation/pseudo_terminal.h"
+#include "sensors/serial/emulation/pseudo_terminal.h"
+#include "sensors/serial/serial_port.h"
+#include "sensors/serial/steady_clock.h"
 
 namespace stereo_nav::imu {
 namespace {
@@ -21,9 +23,9 @@ class ImuDeviceTest : public testing::Test {
   void makeDevice(const std::string& path, Protocol protocol = Protocol::kAngles) {
     ImuDeviceParams params;
     params.protocol = protocol;
-    params.retry_s = 0.05;
-    params.reopen_silent_s = 0.1;
-    device_ = std::make_unique<ImuDevice>(params, PortFinder(path, "/nonexistent"));
+    params.link.retry_s = 0.05;
+    params.link.reopen_silent_s = 0.1;
+    device_ = std::make_unique<ImuDevice>(params, serial::PortFinder(path, "/nonexistent"));
     module_ = std::make_unique<EmulatedModule>(protocol, AngleOrder::kYawPitchRoll, false, ModuleErrors(), 1);
   }
 
@@ -34,7 +36,7 @@ class ImuDeviceTest : public testing::Test {
   /// Polls until the condition holds. The limit is generous, since polling ends as soon as it holds.
   bool pollUntil(
       const std::function<bool()>& condition, const std::function<void()>& meanwhile = [] {}) {
-    for (const double end_s = steadyNow_s() + 20.0; steadyNow_s() < end_s;) {
+    for (const double end_s = serial::steadyNow_s() + 20.0; serial::steadyNow_s() < end_s;) {
       meanwhile();
       poll(0.002);
       if (condition()) return true;
@@ -46,9 +48,9 @@ class ImuDeviceTest : public testing::Test {
     terminal_->write(module_->frame(constantRates({10.0, 2.0, -1.0}, {})(0.0), 0.002 * frames_sent_++));
   }
 
-  LinkState state() const { return device_->status().state; }
+  serial::LinkState state() const { return device_->status().state; }
 
-  std::unique_ptr<PseudoTerminal> terminal_ = std::make_unique<PseudoTerminal>();
+  std::unique_ptr<serial::PseudoTerminal> terminal_ = std::make_unique<serial::PseudoTerminal>();
   std::unique_ptr<ImuDevice> device_;
   std::unique_ptr<EmulatedModule> module_;
   std::vector<ImuReading> readings_;
@@ -62,12 +64,12 @@ TEST_F(ImuDeviceTest, DeliversAnglesWithGrowingStampsOfThePast) {
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     ASSERT_TRUE(readings_[i].angles.has_value());
     EXPECT_NEAR(readings_[i].angles->yaw_deg, 10.0, 1e-5);
-    EXPECT_LT(readings_[i].time_s, steadyNow_s());
+    EXPECT_LT(readings_[i].time_s, serial::steadyNow_s());
     if (i > 0) {
       EXPECT_GT(readings_[i].time_s, readings_[i - 1].time_s);
     }
   }
-  EXPECT_EQ(state(), LinkState::kStreaming);
+  EXPECT_EQ(state(), serial::LinkState::kStreaming);
 }
 
 TEST_F(ImuDeviceTest, DeliversRawMeasurements) {
@@ -82,36 +84,36 @@ TEST_F(ImuDeviceTest, ResumesWhenTheModuleComesBack) {
   const std::string link = testing::TempDir() + "imu_device_test_port";
   makeDevice(link);
   poll(0.0);
-  EXPECT_EQ(state(), LinkState::kDisconnected);
+  EXPECT_EQ(state(), serial::LinkState::kDisconnected);
   EXPECT_NE(device_->status().message.find("does not exist"), std::string::npos);
   for (int connection = 1; connection <= 2; ++connection) {
-    terminal_ = std::make_unique<PseudoTerminal>();
+    terminal_ = std::make_unique<serial::PseudoTerminal>();
     terminal_->link(link);
     readings_.clear();
     ASSERT_TRUE(pollUntil([&] { return readings_.size() >= 20; }, [&] { sendFrame(); }));
     EXPECT_EQ(device_->status().connections, static_cast<std::uint64_t>(connection));
     terminal_.reset();
-    ASSERT_TRUE(pollUntil([&] { return state() == LinkState::kDisconnected; }));
+    ASSERT_TRUE(pollUntil([&] { return state() == serial::LinkState::kDisconnected; }));
   }
 }
 
 TEST_F(ImuDeviceTest, SaysThatItIsSilentAndResumes) {
   makeDevice(terminal_->path());
   poll(0.0);
-  ASSERT_TRUE(pollUntil([&] { return state() == LinkState::kStreaming; }, [&] { sendFrame(); }));
-  ASSERT_TRUE(pollUntil([&] { return state() == LinkState::kSilent; }));
+  ASSERT_TRUE(pollUntil([&] { return state() == serial::LinkState::kStreaming; }, [&] { sendFrame(); }));
+  ASSERT_TRUE(pollUntil([&] { return state() == serial::LinkState::kSilent; }));
   EXPECT_NE(device_->status().message.find("no bytes"), std::string::npos);
   // Several times the time after which the port is opened anew: still silent, still one connection.
-  ASSERT_TRUE(pollUntil([&, end_s = steadyNow_s() + 0.6] { return steadyNow_s() > end_s; }));
-  EXPECT_EQ(state(), LinkState::kSilent);
+  ASSERT_TRUE(pollUntil([&, end_s = serial::steadyNow_s() + 0.6] { return serial::steadyNow_s() > end_s; }));
+  EXPECT_EQ(state(), serial::LinkState::kSilent);
   EXPECT_EQ(device_->status().connections, 1U);
-  ASSERT_TRUE(pollUntil([&] { return state() == LinkState::kStreaming; }, [&] { sendFrame(); }));
+  ASSERT_TRUE(pollUntil([&] { return state() == serial::LinkState::kStreaming; }, [&] { sendFrame(); }));
 }
 
 TEST_F(ImuDeviceTest, BytesWithoutFramesPointToTheBaudRate) {
   makeDevice(terminal_->path());
   poll(0.0);
-  ASSERT_TRUE(pollUntil([&] { return state() == LinkState::kNoFrames; },
+  ASSERT_TRUE(pollUntil([&] { return state() == serial::LinkState::kNoFrames; },
                         [&] {
                           terminal_->write({0x00, 0xF8, 0x69, 0x80, 0x1C});
                         }));
@@ -119,12 +121,12 @@ TEST_F(ImuDeviceTest, BytesWithoutFramesPointToTheBaudRate) {
 }
 
 TEST_F(ImuDeviceTest, ABusyPortIsNamedAndTakenWhenFree) {
-  auto other = std::make_unique<SerialPort>(terminal_->path(), 115200);
+  auto other = std::make_unique<serial::SerialPort>(terminal_->path(), 115200);
   makeDevice(terminal_->path());
   poll(0.0);
   EXPECT_NE(device_->status().message.find("in use by another program"), std::string::npos);
   other.reset();
-  EXPECT_TRUE(pollUntil([&] { return state() != LinkState::kDisconnected; }));
+  EXPECT_TRUE(pollUntil([&] { return state() != serial::LinkState::kDisconnected; }));
 }
 
 TEST_F(ImuDeviceTest, APortWithoutPermissionNamesTheGroupAndIsTakenOnceAllowed) {
@@ -144,7 +146,7 @@ TEST_F(ImuDeviceTest, APortWithoutPermissionNamesTheGroupAndIsTakenOnceAllowed) 
   ASSERT_EQ(chmod(terminal_->path().c_str(), 0600), 0);
   EXPECT_NE(message.find("no permission to open " + terminal_->path()), std::string::npos) << message;
   EXPECT_NE(message.find("sudo usermod -aG"), std::string::npos) << message;
-  EXPECT_TRUE(pollUntil([&] { return state() == LinkState::kStreaming; }, [&] { sendFrame(); }));
+  EXPECT_TRUE(pollUntil([&] { return state() == serial::LinkState::kStreaming; }, [&] { sendFrame(); }));
 }
 
 }  // namespace

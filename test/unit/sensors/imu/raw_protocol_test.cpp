@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "sensors/imu/crc32.h"
-#include "sensors/imu/emulation/serial_line.h"
+#include "sensors/serial/crc32.h"
+#include "sensors/serial/emulation/serial_line.h"
 #include "unit/sensors/imu/allocation_counter.h"
 #include "unit/sensors/imu/module_stream.h"
 
@@ -51,7 +51,7 @@ bool sameContent(const RawMeasurement& a, const RawMeasurement& b) {
 
 TEST(Crc32, HasTheStandardCheckValue) {
   const std::string digits = "123456789";
-  EXPECT_EQ(crc32(reinterpret_cast<const std::uint8_t*>(digits.data()), digits.size()), 0xCBF43926U);
+  EXPECT_EQ(serial::crc32(reinterpret_cast<const std::uint8_t*>(digits.data()), digits.size()), 0xCBF43926U);
 }
 
 TEST(RawProtocol, IsLaidOutAsDocumented) {
@@ -134,7 +134,7 @@ TEST(RawProtocol, AllocatesNothing) {
 /// A million frames, one byte in a hundred damaged: intact frames come through, nothing else does.
 TEST(RawProtocol, DeliversIntactFramesOfADamagedStreamAndNoOther) {
   constexpr int kFrames = 1000000;
-  LineFaults faults(0.005, 0.005, 21);
+  serial::LineFaults faults(0.005, 0.005, 21);
   RawParser parser;
   std::vector<bool> intact, delivered(kFrames, false);
   Bytes line;

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 /// Lower convex hull of points that come with growing x (Andrew's monotone chain); O(1) amortised per point.
 class LowerHull {
@@ -31,4 +31,4 @@ class LowerHull {
   std::vector<Point> points_;
 };
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 /// A pseudo-terminal that imitates a plugged-in serial adapter; its destruction unplugs it.
 class PseudoTerminal {
@@ -22,6 +22,8 @@ class PseudoTerminal {
   void link(const std::string& link_path);
   /// Never blocks. Returns how many bytes were accepted; the others are lost, as in a full adapter.
   std::size_t write(const std::vector<std::uint8_t>& bytes);
+  /// What the program at the other end has written since the last call. Never blocks.
+  std::vector<std::uint8_t> read();
   /// The baud rate that the program at the other end has set; absent while none has been set.
   std::optional<int> baudRate() const;
 
@@ -31,4 +33,4 @@ class PseudoTerminal {
   std::vector<std::string> links_;
 };
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

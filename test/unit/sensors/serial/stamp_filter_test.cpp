@@ -1,13 +1,13 @@
-#include "sensors/imu/stamp_filter.h"
+#include "sensors/serial/stamp_filter.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sensors/imu/link_monitor.h"
+#include "sensors/serial/link_monitor.h"
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 namespace {
 
 /// A module whose frames pass an adapter that hands over at multiples of its period, and a host that adds up
@@ -136,4 +136,4 @@ TEST(JitterMeter, MeasuresRateAndSpread) {
 }
 
 }  // namespace
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 namespace internal {
 
 constexpr std::array<std::uint32_t, 256> makeCrcTable() {
@@ -29,4 +29,4 @@ inline std::uint32_t crc32(const std::uint8_t* data, std::size_t size) {
   return ~crc;
 }
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace stereo_nav::imu {
+#include "sensors/serial/byte_source.h"
+
+namespace stereo_nav::serial {
 
 enum class PortFault { kMissing, kPermission, kBusy, kNotSerial, kBadBaudRate, kLost, kOther };
 
@@ -22,19 +24,20 @@ class SerialError : public std::runtime_error {
 /// The error to report for a port whose open() failed with `error_number`.
 SerialError explainOpenError(const std::string& path, int error_number);
 
-/// A serial port for reading: 8N1, raw, non-blocking, any baud rate, locked against other programs that use
+/// A serial port: 8N1, raw, non-blocking, any baud rate, locked against other programs that use
 /// locks (flock, TIOCEXCL). Closing does not drop DTR, which would restart an Arduino.
-class SerialPort {
+class SerialPort : public ByteSource {
  public:
   /// Throws SerialError. Bytes that came before the opening are discarded.
   SerialPort(const std::string& path, int baud_rate);
-  ~SerialPort();
-  SerialPort(const SerialPort&) = delete;
-  SerialPort& operator=(const SerialPort&) = delete;
+  ~SerialPort() override;
 
-  /// Waits for bytes for at most `timeout_s` and returns how many were read, 0 when none came. Throws
-  /// SerialError (kLost) when the device has disappeared.
-  std::size_t read(std::uint8_t* buffer, std::size_t capacity, double timeout_s);
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity, double timeout_s) override;
+  /// Writes all bytes, waiting for the adapter to take them for at most a second. Throws SerialError (kLost)
+  /// when it does not, or has disappeared.
+  void write(const std::uint8_t* bytes, std::size_t size);
+  /// Sets the line DTR. A port without modem lines, such as a pseudo-terminal, ignores it.
+  void setDtr(bool on);
   const std::string& path() const { return path_; }
 
  private:
@@ -45,4 +48,4 @@ class SerialPort {
   int fd_ = -1;
 };
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -1,4 +1,4 @@
-#include "sensors/imu/serial_port.h"
+#include "sensors/serial/serial_port.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,10 +9,10 @@
 #include <functional>
 #include <memory>
 
-#include "sensors/imu/emulation/pseudo_terminal.h"
-#include "sensors/imu/port_finder.h"
+#include "sensors/serial/emulation/pseudo_terminal.h"
+#include "sensors/serial/port_finder.h"
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,6 +43,24 @@ TEST(SerialPort, BringsBytesAcrossUnchanged) {
   }
   EXPECT_EQ(received, sent);
   EXPECT_EQ(port.read(buffer.data(), buffer.size(), 0.0), 0U);
+}
+
+TEST(SerialPort, WritesBytesUnchanged) {
+  PseudoTerminal terminal;
+  SerialPort port(terminal.path(), 115200);
+  std::vector<std::uint8_t> sent;
+  for (int i = 0; i < 256; ++i) sent.push_back(static_cast<std::uint8_t>(i));
+  port.write(sent.data(), sent.size());
+  EXPECT_EQ(terminal.read(), sent);
+  EXPECT_TRUE(terminal.read().empty());
+}
+
+TEST(SerialPort, SaysWhenItCannotWrite) {
+  auto terminal = std::make_unique<PseudoTerminal>();
+  SerialPort port(terminal->path(), 115200);
+  terminal.reset();
+  const std::uint8_t byte = 0xA5;
+  EXPECT_EQ(faultOf([&] { port.write(&byte, 1); }), PortFault::kLost);
 }
 
 TEST(SerialPort, SetsAnyBaudRate) {
@@ -132,4 +150,4 @@ TEST_F(PortFinderTest, WorksWithoutLastingNames) {
 }
 
 }  // namespace
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -1,8 +1,8 @@
-#include "sensors/imu/link_monitor.h"
+#include "sensors/serial/link_monitor.h"
 
 #include <cmath>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 namespace {
 
 /// One step of Welford's running mean and sum of squared deviations.
@@ -73,4 +73,4 @@ LinkState LinkMonitor::state(double now_s) const {
   return any_frame_ ? LinkState::kStreaming : LinkState::kWaiting;
 }
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -1,8 +1,8 @@
-#include "sensors/imu/lower_hull.h"
+#include "sensors/serial/lower_hull.h"
 
 #include <algorithm>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 namespace {
 
 /// Positive when c lies to the left of the line from a to b.
@@ -34,4 +34,4 @@ double LowerHull::offset(double slope) const {
   return lowest;
 }
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "sensors/imu/lower_hull.h"
+#include "sensors/serial/lower_hull.h"
 #include "stereo_nav/core/parameter_visitor.h"
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 struct StampFilterParams {
   double window_s = 20.0;
@@ -64,4 +64,4 @@ class StampFilter {
   double last_arrival_s_ = 0.0;
 };
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -1,8 +1,8 @@
-#include "sensors/imu/stamp_filter.h"
+#include "sensors/serial/stamp_filter.h"
 
 #include <algorithm>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 namespace {
 
 /// When all arrivals are late for this long, the cause is not batching: frames were lost unnoticed.
@@ -96,4 +96,4 @@ void StampFilter::watchForStep(double late_s, double threshold_s, double arrival
   last_arrival_s_ = arrival_s;
 }
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

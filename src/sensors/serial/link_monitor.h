@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 /// The state of the line to the module.
 enum class LinkState {
@@ -59,4 +59,4 @@ class LinkMonitor {
   bool any_frame_ = false;
 };
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

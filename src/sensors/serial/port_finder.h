@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 /// Remembers under which persistent name (/dev/serial/by-id/...) a port was reached, so that an adapter that
 /// comes back as ttyUSB1 instead of ttyUSB0 is found again.
@@ -22,4 +22,4 @@ class PortFinder {
   std::string persistent_name_;
 };
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

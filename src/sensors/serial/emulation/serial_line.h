@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 /// Corrupts and loses bytes at random; the same seed gives the same faults.
 class LineFaults {
@@ -64,4 +64,4 @@ class MismatchedReceiver {
   double position_ = 0.0;    ///< in sender's bits, from the front of `levels_`
 };
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

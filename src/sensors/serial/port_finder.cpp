@@ -1,9 +1,9 @@
-#include "sensors/imu/port_finder.h"
+#include "sensors/serial/port_finder.h"
 
 #include <filesystem>
 #include <system_error>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 namespace fs = std::filesystem;
 
@@ -27,4 +27,4 @@ void PortFinder::remember() {
   }
 }
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -1,4 +1,4 @@
-#include "sensors/imu/emulation/pseudo_terminal.h"
+#include "sensors/serial/emulation/pseudo_terminal.h"
 
 #include <asm/termbits.h>
 #include <fcntl.h>
@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 namespace fs = std::filesystem;
 
@@ -67,10 +67,17 @@ std::size_t PseudoTerminal::write(const std::vector<std::uint8_t>& bytes) {
   return written;
 }
 
+std::vector<std::uint8_t> PseudoTerminal::read() {
+  std::vector<std::uint8_t> bytes(4096);
+  const ssize_t count = ::read(fd_, bytes.data(), bytes.size());
+  bytes.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  return bytes;
+}
+
 std::optional<int> PseudoTerminal::baudRate() const {
   termios2 settings{};
   if (ioctl(fd_, TCGETS2, &settings) != 0 || settings.c_ospeed == kUnconfigured_baud) return std::nullopt;
   return static_cast<int>(settings.c_ospeed);
 }
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 template <class Unsigned>
 Unsigned readUnsigned(const std::uint8_t* bytes) {
@@ -32,4 +32,4 @@ inline void writeFloat(float value, std::uint8_t* bytes) {
   writeUnsigned(bits, bytes);
 }
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

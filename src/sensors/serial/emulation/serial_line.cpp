@@ -1,9 +1,9 @@
-#include "sensors/imu/emulation/serial_line.h"
+#include "sensors/serial/emulation/serial_line.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 
 bool LineFaults::pass(const std::uint8_t* bytes, std::size_t size, std::vector<std::uint8_t>& out) {
   std::uniform_real_distribution<double> chance(0.0, 1.0);
@@ -69,4 +69,4 @@ void MismatchedReceiver::receive(const std::vector<std::uint8_t>& bytes, std::ve
   position_ -= static_cast<double>(consumed);
 }
 
-}  // namespace stereo_nav::imu
+}  // namespace stereo_nav::serial

@@ -1,4 +1,4 @@
-#include "sensors/imu/serial_port.h"
+#include "sensors/serial/serial_port.h"
 
 #include <asm/termbits.h>
 #include <fcntl.h>
@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace stereo_nav::imu {
+namespace stereo_nav::serial {
 namespace {
 
 /// Name of the group that owns the device; `dialout` on Debian and Ubuntu.
@@ -112,4 +112,27 @@ std::size_t SerialPort::read(std::uint8_t* buffer, std::size_t capacity, double 
   throw lost(path_, count == 0 ? "end of input" : std::strerror(errno));
 }
 
-}  // namespace stereo_nav::imu
+void SerialPort::write(const std::uint8_t* bytes, std::size_t size) {
+  constexpr int kPatience_ms = 1000;
+  while (size > 0) {
+    const ssize_t count = ::write(fd_, bytes, size);
+    if (count > 0) {
+      bytes += count;
+      size -= static_cast<std::size_t>(count);
+    } else if (count < 0 && errno == EINTR) {
+      continue;
+    } else if (count < 0 && errno == EAGAIN) {
+      pollfd waiting{fd_, POLLOUT, 0};
+      if (poll(&waiting, 1, kPatience_ms) == 0) throw lost(path_, "it takes no bytes");
+    } else {
+      throw lost(path_, count == 0 ? "nothing was written" : std::strerror(errno));
+    }
+  }
+}
+
+void SerialPort::setDtr(bool on) {
+  const int line = TIOCM_DTR;
+  ioctl(fd_, on ? TIOCMBIS : TIOCMBIC, &line);
+}
+
+}  // namespace stereo_nav::serial
