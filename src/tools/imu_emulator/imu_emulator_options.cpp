@@ -91,17 +91,6 @@ po::options_description describeOptions(EmulatorOptions& o) {
        "yaw_pitch_roll or roll_pitch_yaw")                                                     //
       ("magnetometer", po::bool_switch(&o.magnetometer), "raw: send the magnetic field, too")  //
       ("rate", po::value(&o.rate_hz)->default_value(o.rate_hz), "frames per second")           //
-      ("baud", po::value(&o.baud_rate)->default_value(o.baud_rate),
-       "speed of the line; a reader that sets another one receives what it would on a wire")  //
-      ("batch", po::value(&o.batch_s)->default_value(o.batch_s),
-       "interval at which the adapter delivers bytes, s")                                                //
-      ("duration", po::value(&o.duration_s)->default_value(0.0), "seconds; 0: until interrupted")        //
-      ("wait-for-reader", po::bool_switch(&o.wait_for_reader), "begin when the port is opened")          //
-      ("link", po::value(&o.links)->composing(), "name for the port, a symbolic link; may be repeated")  //
-      ("replug-link", po::value(&o.replug_link),
-       "name that replaces the first --link after the module was plugged in again")  //
-      ("log", po::value(&o.log),
-       "CSV file: time of the steady clock, yaw, pitch, roll of every frame sent")  //
       ("motion", po::value<std::string>()->default_value("rates"),
        "rates (see --start, --rates), sway, turns (about each axis), its (angles whose bytes contain the frame header)")  //
       ("start", triple(0.0), "yaw pitch roll at the start, degrees")                                   //
@@ -122,17 +111,8 @@ po::options_description describeOptions(EmulatorOptions& o) {
       ("accelerometer-offset", triple(0.0), "x y z, m/s^2")  //
       ("accelerometer-gain", triple(1.0), "x y z")           //
       ("accelerometer-noise", po::value(&o.errors.accelerometer_noise_m_s2)->default_value(0.0),
-       "standard deviation, m/s^2")                                               //
-      ("seed", po::value(&o.seed)->default_value(1), "seed of noise and faults")  //
-      ("corrupt", po::value(&o.corrupt_probability)->default_value(0.0),
-       "share of bytes that are changed")                                                           //
-      ("drop", po::value(&o.drop_probability)->default_value(0.0), "share of bytes that are lost")  //
-      ("garbage", po::value(&o.garbage_probability)->default_value(0.0),
-       "share of frames that are followed by random bytes")                                    //
-      ("pause-at", po::value(&o.pause.start_s), "second at which the module falls silent")     //
-      ("pause-for", po::value(&o.pause.duration_s)->default_value(2.0), "seconds of silence")  //
-      ("unplug-at", po::value(&o.unplug.start_s), "second at which the cable is pulled")       //
-      ("unplug-for", po::value(&o.unplug.duration_s)->default_value(2.0), "seconds without the cable");
+       "standard deviation, m/s^2");
+  o.run.addOptions(visible);
   return visible;
 }
 
@@ -168,9 +148,8 @@ std::optional<EmulatorOptions> parseEmulatorOptions(int argc, char** argv) {
   options.errors.gyro_bias = vectorOf(values, "gyro-bias");
   options.errors.accelerometer_offset = vectorOf(values, "accelerometer-offset");
   options.errors.accelerometer_gain = vectorOf(values, "accelerometer-gain");
-  if (!(options.rate_hz > 0.0) || options.baud_rate <= 0 || options.batch_s < 0.0) {
-    throw std::runtime_error("--rate and --baud must be above 0, --batch 0 or more");
-  }
+  if (!(options.rate_hz > 0.0)) throw std::runtime_error("--rate must be above 0");
+  options.run.check();
   if (options.follow_topic.empty()) options.motion = motionOf(values);
   return options;
 }

@@ -1,0 +1,76 @@
+#include "tools/common/emulator_options.h"
+
+#include <chrono>
+#include <csignal>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "sensors/serial/steady_clock.h"
+
+namespace stereo_nav::tools {
+namespace {
+
+volatile std::sig_atomic_t stopped_by_signal = 0;
+constexpr double kLinger_s = 1.0;
+
+}  // namespace
+
+void EmulatorRunOptions::addOptions(boost::program_options::options_description& options) {
+  namespace po = boost::program_options;
+  options.add_options()  //
+      ("baud", po::value(&adapter.baud_rate)->default_value(adapter.baud_rate),
+       "speed of the line; a reader that sets another one receives what it would on a wire")  //
+      ("batch", po::value(&adapter.batch_s)->default_value(adapter.batch_s),
+       "interval at which the adapter delivers bytes, s")                                        //
+      ("duration", po::value(&duration_s)->default_value(0.0), "seconds; 0: until interrupted")  //
+      ("wait-for-reader", po::bool_switch(&wait_for_reader), "begin when the port is opened")    //
+      ("link", po::value(&adapter.links)->composing(),
+       "name for the port, a symbolic link; may be repeated")  //
+      ("replug-link", po::value(&adapter.replug_link),
+       "name that replaces the first --link after the module was plugged in again")                //
+      ("log", po::value(&log), "CSV file of what was sent, with its time on the steady clock")     //
+      ("seed", po::value(&adapter.seed)->default_value(adapter.seed), "seed of noise and faults")  //
+      ("corrupt", po::value(&adapter.corrupt_probability)->default_value(0.0),
+       "share of bytes that are changed")                                                                 //
+      ("drop", po::value(&adapter.drop_probability)->default_value(0.0), "share of bytes that are lost")  //
+      ("garbage", po::value(&adapter.garbage_probability)->default_value(0.0),
+       "share of frames that are followed by random bytes")                                     //
+      ("pause-at", po::value(&pause.start_s), "second at which the module falls silent")        //
+      ("pause-for", po::value(&pause.duration_s)->default_value(2.0), "seconds of silence")     //
+      ("unplug-at", po::value(&adapter.unplug.start_s), "second at which the cable is pulled")  //
+      ("unplug-for", po::value(&adapter.unplug.duration_s)->default_value(2.0), "seconds without the cable");
+}
+
+void EmulatorRunOptions::check() const {
+  if (adapter.baud_rate <= 0 || adapter.batch_s < 0.0) {
+    throw std::runtime_error("--baud must be above 0, --batch 0 or more");
+  }
+}
+
+EmulatorRun::EmulatorRun(const EmulatorRunOptions& options)
+    : wait_for_reader_(options.wait_for_reader),
+      end_s_(options.duration_s > 0.0 ? options.duration_s : std::numeric_limits<double>::infinity()),
+      start_s_(serial::steadyNow_s()) {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { stopped_by_signal = 1; });
+}
+
+void EmulatorRun::start(serial::EmulatedAdapter& adapter) {
+  while (wait_for_reader_ && stopped_by_signal == 0 && !adapter.opened()) sleepBriefly();
+  start_s_ = serial::steadyNow_s();
+  adapter.start(start_s_);
+}
+
+double EmulatorRun::elapsed_s() const {
+  return serial::steadyNow_s() - start_s_;
+}
+
+bool EmulatorRun::done() const {
+  return stopped_by_signal != 0 || elapsed_s() > end_s_ + kLinger_s;
+}
+
+void sleepBriefly() {
+  std::this_thread::sleep_for(std::chrono::microseconds(500));
+}
+
+}  // namespace stereo_nav::tools
