@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Fuzz what reads calibrations, bags, stamps and lists of images with libFuzzer, AddressSanitizer and
+# Fuzz what reads calibrations, bags, stamps, lists of images and the base's serial frames with libFuzzer, AddressSanitizer and
 # UndefinedBehaviourSanitizer. The decoders of the IMU: fuzz_imu.sh.
 #
 #   scripts/fuzz.sh KIND [SECONDS] [BUILD_DIR]      (default: 600 seconds, build)
 #
-# KIND: ros, opencv, kalibr, kitti, euroc, rig, times, lists, names, bag; test/fuzz/input_fuzz.cpp says what each reads.
+# KIND: ros, opencv, kalibr, kitti, euroc, rig, times, lists, names, bag, base; test/fuzz/input_fuzz.cpp says what each reads.
 # Needs clang and a BUILD_DIR that is built: the readers are compiled anew, all else is taken from there. Inputs
 # are kept in BUILD_DIR/fuzz; a finding ends the script with an error and leaves its input there.
 set -euo pipefail
@@ -26,7 +26,7 @@ read -ra includes < <(sed -n 's/^CXX_INCLUDES = //p' "$flags")
 sanitize=("-fsanitize=address,undefined" -fno-sanitize-recover=all)
 cd "$root"
 
-sources=(test/fuzz/input_fuzz.cpp test/fuzz/input_fuzz_main.cpp src/core/{rig_file,text_table,parameters}.cpp
+sources=(test/fuzz/{base_fuzz,input_fuzz,input_fuzz_main}.cpp src/core/{rig_file,text_table,parameters}.cpp
   src/ros/{bag_structure,calibration_file,recorded_order,recording,rig_topics,judged_infos,pairing,conversions}.cpp
   src/tools/import_sequence/{image_names,image_stamps,kitti_layout,euroc_layout,images_layout}.cpp
   src/tools/import_sequence/{raw_pair,raw_pair_files,rectified_camera,frame_reader,sixteen_bits}.cpp)

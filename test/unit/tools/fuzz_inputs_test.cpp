@@ -42,7 +42,7 @@ TEST_P(FuzzInputs, AreReadOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Corpus, FuzzInputs,
                          ::testing::Values("ros", "opencv", "kalibr", "kitti", "euroc", "rig", "times",
-                                           "lists", "names", "bag"),
+                                           "lists", "names", "bag", "base"),
                          [](const auto& kind) { return std::string(kind.param); });
 
 }  // namespace
