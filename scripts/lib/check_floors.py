@@ -20,6 +20,8 @@ FIRST_FLOOR_WITH_ROS = 5
 PACKAGE = 'stereo_nav'
 # Folders of headers that any floor may include; those of the standard library and of the system have no folder.
 LIBRARIES = {'Eigen', 'arpa', 'asm', 'boost', 'fmt', 'linux', 'netinet', 'nlohmann', 'opencv2', 'sys', 'yaml-cpp'}
+# Headers that a microcontroller's tools compile, too, which know no rooms: they include those beside them by their bare names.
+ON_A_CONTROLLER = 'src/sensors/base/controller'
 
 Room = namedtuple('Room', 'name floor')
 Target = namedtuple('Target', 'name room is_library links')
@@ -169,6 +171,9 @@ class Checker:
                                      f'{FIRST_FLOOR_WITH_ROS} on')
             return
         if not quoted:
+            return
+        folder = str(Path(place).parent)
+        if folder == ON_A_CONTROLLER and (self.root / folder / header).exists():
             return
         is_public = header.startswith(f'{PACKAGE}/')
         if public and not is_public:

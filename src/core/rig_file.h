@@ -52,6 +52,7 @@ constexpr const char* kDisparity = "disparity";           ///< parameters of ste
 constexpr const char* kDrive = "drive";                   ///< the wheels: kinematics::readDrive()
 constexpr const char* kWheelOdometry = "wheel_odometry";  ///< wheel_odometry's parameters
 constexpr const char* kUncertainty = "uncertainty";       ///< what the cameras' calibration is uncertain by
+constexpr const char* kBase = "base";                     ///< base_bridge's parameters
 }  // namespace rig_sections
 
 /// A rig file holds everything that is specific to one robot. This is the only reader and writer of such

@@ -40,6 +40,10 @@ WheelCommander::WheelCommander(const DriveParams& drive, const WheelLimits& limi
   validateParameters(limits, "wheel limits");
 }
 
+void WheelCommander::halt() {
+  for (auto& wheel : last_) wheel.speed_m_per_s = 0.0;
+}
+
 std::vector<WheelState> WheelCommander::command(const Twist& twist, double period_s) {
   std::vector<double> steering_rad;
   for (const auto& wheel : last_) steering_rad.push_back(wheel.steering_rad);

@@ -40,6 +40,9 @@ class WheelCommander {
   /// The same where angles are not measured: they are taken to be those commanded last.
   std::vector<WheelState> command(const Twist& twist, double period_s);
 
+  /// The wheels were stopped by other means: the next command accelerates from rest. Angles stay.
+  void halt();
+
  private:
   Drive drive_;
   WheelLimits limits_;

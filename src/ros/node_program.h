@@ -7,6 +7,7 @@
 #include <iostream>
 #include <string>
 
+#include "core/rig_file.h"
 #include "ros/master_watch.h"
 
 namespace stereo_nav::ros_io {
@@ -14,6 +15,17 @@ namespace stereo_nav::ros_io {
 inline bool asksForHelp(int argc, char** argv) {
   return std::any_of(argv + 1, argv + argc,
                      [](const std::string& argument) { return argument == "-h" || argument == "--help"; });
+}
+
+/// robot.launch starts a node whatever the rig file holds, with `~if_in_rig`: where its section is missing
+/// the node says so and rests. Returns whether it did, up to the end.
+inline bool restsWithout(const char* section) {
+  const ros::NodeHandle private_handle("~");
+  if (!private_handle.param("if_in_rig", false)) return false;
+  if (!RigFile::load(private_handle.param<std::string>("rig", "")).section(section).IsNull()) return false;
+  ROS_INFO("the rig file has no section `%s`: nothing to do", section);
+  ros::spin();
+  return true;
 }
 
 /// The main() of every node. `run` works until ROS shuts down and returns the exit status. An exception is

@@ -101,7 +101,7 @@ ParameterSource rigSource(const ros::NodeHandle& private_handle, const std::stri
 
 ParameterSource serverSource(const ros::NodeHandle& handle, const std::set<std::string>& except) {
   std::set<std::string> others = except;
-  others.insert({"config", kRigPath});
+  others.insert({"config", kRigPath, "if_in_rig"});
   return {parameterTree(handle, others), handle.getNamespace()};
 }
 

@@ -49,7 +49,8 @@ ParameterSource fileSource(const ros::NodeHandle& private_handle, const std::str
 /// Reads a section of the rig file whose path is `~rig`; empty where that is not set. Throws ParameterError.
 ParameterSource rigSource(const ros::NodeHandle& private_handle, const std::string& section);
 /// Reads the parameters below the handle's namespace, without the names in `except`, which belong to
-/// libraries that share the private namespace, and without the paths `config` and `rig`.
+/// libraries that share the private namespace, and without `config`, `rig` and `if_in_rig`, which say where
+/// to read.
 ParameterSource serverSource(const ros::NodeHandle& handle, const std::set<std::string>& except = {});
 
 /// Fills `params` from all sources, by the same mechanism as all parameters; later sources overlay earlier

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/rig_file.h"
+#include "fuzz/base_fuzz.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/parameters.h"
 #include "stereo_nav/ros/conversions.h"
@@ -160,7 +161,10 @@ void readFuzzInput(const std::string& kind, const std::uint8_t* data, std::size_
       {"rig", readRig},
       {"times", readTimes},
       {"names", readNames},
-      {"bag", readBag}};
+      {"bag", readBag},
+      {"base", [](const std::string& bytes) {
+         base::parseFuzzInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+       }}};
   try {
     readers.at(kind)(std::string(reinterpret_cast<const char*>(data), size));
   } catch (const InputError&) {

@@ -17,7 +17,16 @@ constexpr const char* kSync = "camera/sync";                            ///< ste
 constexpr const char* kImu = "imu/data";                                ///< sensor_msgs/Imu
 /// The thesis' topic: orientation without a header.
 constexpr const char* kImuQuaternion = "imu_quat";
-constexpr const char* kWheelTicks = "wheel_ticks";         ///< stereo_nav/WheelTicks
+constexpr const char* kWheelTicks = "wheel_ticks";    ///< stereo_nav/WheelTicks
+constexpr const char* kScan = "scan";                 ///< sensor_msgs/LaserScan
+constexpr const char* kJointStates = "joint_states";  ///< sensor_msgs/JointState of wheels and servos
+constexpr const char* kBattery = "battery";           ///< sensor_msgs/BatteryState
+constexpr const char* kRange = "range/";              ///< sensor_msgs/Range, followed by a name
+constexpr const char* kCmdVel = "cmd_vel";            ///< geometry_msgs/Twist that the base follows
+/// Senders of velocities, by rank: cmd_vel_mux lets the first that is heard pass to cmd_vel.
+constexpr const char* kCmdVelStop = "cmd_vel_stop";
+constexpr const char* kCmdVelManual = "cmd_vel_manual";    ///< teleop, operator page
+constexpr const char* kCmdVelAuto = "cmd_vel_auto";        ///< the navigator
 constexpr const char* kWheelOdometry = "wheel/odom";       ///< nav_msgs/Odometry by the wheels
 constexpr const char* kGroundTruth = "ground_truth/odom";  ///< nav_msgs/Odometry
 /// In simulated recordings: the moments at which the robot passes the way-points of its path.

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "core/rig_file.h"
 #include "ros/parameter_server.h"
 #include "stereo_nav/ros/topics.h"
 
@@ -22,6 +23,13 @@ RecorderParams readParams(const ros::NodeHandle& private_handle) {
   ros_io::readParameters({ros_io::serverSource(private_handle, {"diagnostic_period"})}, params);
   if (params.folder.empty()) throw ParameterError("~folder is not set: where are the recordings to go?");
   return params;
+}
+
+/// The rig file names the range finders.
+ros_io::BaseBridgeParams readBase(const ros::NodeHandle& private_handle) {
+  ros_io::BaseBridgeParams base;
+  ros_io::readParameters({ros_io::rigSource(private_handle, rig_sections::kBase)}, base);
+  return base;
 }
 
 /// Absolute path of the folder, so that messages about it are clear: roslaunch starts nodes in ROS_HOME.
@@ -43,11 +51,13 @@ fs::path makeFolder(const RecorderParams& params) {
 }
 
 /// Everything that is needed to run the odometry on the recording later, and the robot's diagnostics.
-std::vector<std::string> recordedTopics(const RecorderParams& params) {
-  std::vector<std::string> names = {topics::kLeftImage, topics::kRightImage,    topics::kLeftInfo,
-                                    topics::kRightInfo, topics::kSync,          topics::kImu,
-                                    "imu/data_raw",     topics::kImuQuaternion, topics::kGroundTruth,
-                                    "/tf_static",       "/diagnostics"};
+std::vector<std::string> recordedTopics(const RecorderParams& params, const ros_io::BaseBridgeParams& base) {
+  std::vector<std::string> names = {
+      topics::kScan,          topics::kWheelTicks,  topics::kJointStates, topics::kBattery,
+      topics::kCmdVel,        topics::kLeftImage,   topics::kRightImage,  topics::kLeftInfo,
+      topics::kRightInfo,     topics::kSync,        topics::kImu,         "imu/data_raw",
+      topics::kImuQuaternion, topics::kGroundTruth, "/tf_static",         "/diagnostics"};
+  for (const auto& range : base.ranges) names.push_back(topics::kRange + range.name);
   std::istringstream more(params.more_topics);
   for (std::string name; std::getline(more, name, ',');) names.push_back(name);
   for (auto& name : names) name = ros::names::resolve(name);
@@ -76,6 +86,7 @@ void RecorderParams::describe(ParameterVisitor& visitor) {
 RecorderNode::RecorderNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle),
       params_(readParams(private_handle)),
+      base_(readBase(private_handle)),
       folder_(makeFolder(params_)),
       bytes_before_(recordedBytes()),
       disk_(toBytes(params_.reserve_gb), 60.0 * params_.warn_before_min),
@@ -89,7 +100,7 @@ int RecorderNode::run() {
   constexpr unsigned int kMebi = 1024 * 1024;
   rosbag::RecorderOptions options;
   options.prefix = (folder_ / params_.prefix).string();
-  options.topics = recordedTopics(params_);
+  options.topics = recordedTopics(params_, base_);
   options.split = true;
   options.max_size = static_cast<std::uint64_t>(params_.split_mb) * kMebi;
   options.buffer_size = static_cast<std::uint32_t>(params_.buffer_mb) * kMebi;

@@ -1,20 +1,25 @@
-// Checks the whole rig file and publishes the mounting of its sensors as static transforms.
+// Checks the whole rig file, publishes the mounting of its sensors as static transforms, and sets
+// robot_description, from which robot_state_publisher knows wheels and servos.
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include "core/rig_file.h"
+#include "kinematics/drive_file.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "odometry/wheel/wheel_odometry_params.h"
 #include "ros/capture_setup.h"
 #include "ros/imu_bridge_params.h"
 #include "ros/node_program.h"
 #include "ros/parameter_server.h"
+#include "ros/robot_description.h"
 #include "ros/stereo_processing.h"
 
 namespace stereo_nav::nodes {
 namespace {
+
+using ros_io::BaseBridgeParams;
+using ros_io::RobotGeometry;
 
 /// Sections that other nodes read are checked here, too, so that this node reports every mistake in the file.
 void checkSections(const ros::NodeHandle& private_handle) {
@@ -28,13 +33,19 @@ void checkSections(const ros::NodeHandle& private_handle) {
   if (!rig.section(rig_sections::kDrive).IsNull()) odometry::loadWheelOdometry("", rig);
 }
 
-geometry_msgs::TransformStamped toMessage(const std::string& parent, const std::string& child,
-                                          const Eigen::Isometry3d& T) {
-  geometry_msgs::TransformStamped message = tf2::eigenToTransform(T);
-  message.header.stamp = ros::Time::now();
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  return message;
+RobotGeometry readGeometry(const RigTransformsParams& params, const RigFile& rig) {
+  RobotGeometry robot;
+  robot.mounting = rig.mounting();
+  robot.base_frame = params.base_frame;
+  robot.camera_frame = params.camera_frame;
+  robot.imu_frame = params.imu_frame;
+  BaseBridgeParams base;
+  stereo_nav::readParameters(rig.section(rig_sections::kBase), rig.sectionName(rig_sections::kBase), base);
+  base.checkNames();
+  robot.joints = base.joints;
+  robot.ranges = base.ranges;
+  if (!rig.section(rig_sections::kDrive).IsNull()) robot.drive = kinematics::readDrive(rig);
+  return robot;
 }
 
 void addPose(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
@@ -50,13 +61,15 @@ int run() {
   ros_io::readParameters({ros_io::serverSource(private_handle, {"diagnostic_period"})}, params);
   const auto rig = private_handle.param<std::string>("rig", "");
   if (rig.empty()) throw ParameterError("~rig is not set; it is the path of the rig file");
-  const Mounting mounting = RigFile::load(rig).mounting();
+  const RobotGeometry robot = readGeometry(params, RigFile::load(rig));
+  const Mounting& mounting = robot.mounting;
   checkSections(private_handle);
 
+  handle.setParam("robot_description", ros_io::robotDescription(robot));
   tf2_ros::StaticTransformBroadcaster broadcaster;
-  broadcaster.sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      toMessage(params.base_frame, params.camera_frame, mounting.camera.T_base_optical()),
-      toMessage(params.base_frame, params.imu_frame, mounting.imu.T_base_sensor())});
+  auto transforms = ros_io::fixedTransforms(robot);
+  for (auto& transform : transforms) transform.header.stamp = ros::Time::now();
+  broadcaster.sendTransform(transforms);
 
   diagnostic_updater::Updater updater(handle, private_handle);
   updater.setHardwareID("none");

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/angles.h"
 #include "estimation/levelling.h"
 #include "ros/imu_checks.h"
 #include "ros/setup_checks.h"
@@ -15,6 +16,9 @@ namespace stereo_nav::nodes {
 namespace {
 
 constexpr double kCameraOrderInterval_s = 1.0;
+/// Beyond these the camera is not where it was when the odometry began.
+constexpr double kCameraTurned_rad = 0.2 * kRadPerDeg;
+constexpr double kCameraMoved_m = 0.002;
 
 std::optional<Eigen::Isometry3d> lookUp(const TransformLookup& lookup, const std::string& base_frame,
                                         const std::string& sensor_frame, bool is_camera,
@@ -112,7 +116,7 @@ bool OdometrySession::prepareCameras(const ros_io::FrameMessages& frame, const S
   }
   const bool same = odometry_ && ros_io::sameCamera(*left_info_, *setup.left_info) &&
                     ros_io::sameCamera(*right_info_, *setup.right_info);
-  if (same) return true;
+  if (same) return cameraIsInPlace(output);
 
   const std::string camera_frame = ros_io::withoutSlash(frame.left->header.frame_id);
   std::string problem;
@@ -129,6 +133,25 @@ bool OdometrySession::prepareCameras(const ros_io::FrameMessages& frame, const S
   T_base_camera_ = *T_base_camera;
   odometry_.reset();
   return true;
+}
+
+/// A camera on a servo: its motion would be taken for one of the base.
+bool OdometrySession::cameraIsInPlace(SessionOutput& output) const {
+  std::string problem;
+  const auto now = lookUp(lookup_, params_.base_frame, camera_frame_, true, problem);
+  if (!now) return true;  // tf may be gone for a while
+  const Eigen::Isometry3d moved = T_base_camera_.inverse() * *now;
+  const double turned_rad = Eigen::AngleAxisd(moved.linear()).angle();
+  if (turned_rad < kCameraTurned_rad && moved.translation().norm() < kCameraMoved_m) return true;
+  std::ostringstream text;
+  text.precision(3);
+  text
+      << "the camera " << camera_frame_ << " has moved against " << params_.base_frame << " by "
+      << kDegPerRad * turned_rad << " deg and " << 1e3 * moved.translation().norm()
+      << " mm since the odometry began, which would be taken for a motion of the base: turn its joint back, or start the "
+         "odometry anew where the camera is to stay";
+  output.errors["camera_moves"] = text.str();
+  return false;
 }
 
 bool OdometrySession::prepareImu(const SensorSetup& setup, SessionOutput& output) {

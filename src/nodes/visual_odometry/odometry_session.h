@@ -71,6 +71,7 @@ class OdometrySession {
  private:
   bool prepare(const ros_io::FrameMessages& frame, const SensorSetup& setup, SessionOutput& output);
   bool prepareCameras(const ros_io::FrameMessages& frame, const SensorSetup& setup, SessionOutput& output);
+  bool cameraIsInPlace(SessionOutput& output) const;
   bool prepareImu(const SensorSetup& setup, SessionOutput& output);
   void makeOdometry(SessionOutput& output);
   void startAgain(const Eigen::Isometry3d& T_odom_base, const Matrix6d& covariance);

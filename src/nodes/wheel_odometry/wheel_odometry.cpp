@@ -5,6 +5,7 @@
 namespace {
 
 int run() {
+  if (stereo_nav::ros_io::restsWithout(stereo_nav::rig_sections::kDrive)) return 0;
   const stereo_nav::nodes::WheelOdometryNode node(ros::NodeHandle(), ros::NodeHandle("~"),
                                                   ros::this_node::getName());
   ros::spin();

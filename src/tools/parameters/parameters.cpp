@@ -6,14 +6,17 @@
 
 #include "core/rig_file.h"
 #include "kinematics/drive_params.h"
+#include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
 #include "nodes/laser_bridge/laser_bridge_params.h"
 #include "nodes/range_bridge/range_bridge_params.h"
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "nodes/simulator/simulator_node.h"
+#include "nodes/teleop/key_driver.h"
 #include "nodes/visual_odometry/visual_odometry_params.h"
 #include "nodes/wheel_odometry/wheel_odometry_node_params.h"
+#include "ros/base_bridge_params.h"
 #include "ros/capture_setup.h"
 #include "ros/stereo_processing.h"
 #include "stereo_nav/odometry/method/odometry_config.h"
@@ -61,7 +64,8 @@ void printSensors() {
       "Sections `cameras` (as `stereo_capture`), `imu` (as `imu_bridge`), `laser` (as `laser_bridge`), "
       "`range_finders` (as `range_bridge`), `disparity` (as "
       "`stereo_image_proc/disparity`), `wheel_odometry` (as `wheel_odometry`, without its own), `uncertainty` (as "
-      "`visual_odometry`), all below, and `mounting`: where the sensors sit in `base_link`.");
+      "`visual_odometry`), `base` (as `base_bridge`), all below, and `mounting`: where the sensors sit in "
+      "`base_link`.");
   printTable(Mounting());
   printHeading(
       "### Section `drive`",
@@ -87,6 +91,25 @@ void printSensors() {
                "`config/disparity.yaml`, also read by `evaluate`. All of them can be changed live by the "
                "nodelet's own dynamic_reconfigure.");
   printTable(ros_io::DisparityParams());
+}
+
+void printBase() {
+  printHeading(
+      "## `base_bridge`",
+      "`config/base.yaml`; section `base` of the rig file, which also holds for each of `joints`, `ranges`, "
+      "`switches` and `actuators` a section `joint_1`, `range_1`, `switch_1`, `actuator_1`, ... as below. The "
+      "wheels are the section `drive` of `~rig`.");
+  printTable(ros_io::BaseBridgeParams());
+  printHeading("### A servo, `joint_N`");
+  printTable(ros_io::BaseJointParams());
+  printHeading("### A range finder, `range_N`");
+  printTable(ros_io::BaseRangeParams());
+  printHeading("### A switch or an actuator, `switch_N`, `actuator_N`");
+  printTable(ros_io::BaseNameParams());
+  printHeading("## `cmd_vel_mux`");
+  printTable(nodes::CmdVelMuxParams());
+  printHeading("## `teleop`");
+  printTable(nodes::TeleopParams());
 }
 
 void printOdometry() {
@@ -124,6 +147,7 @@ int run(int argc, char** /*argv*/) {
   }
   std::cout << kIntroduction;
   printSensors();
+  printBase();
   printOdometry();
   printOthers();
   return 0;

@@ -104,6 +104,15 @@ TEST(WheelCommander, limitsRates) {
   EXPECT_LT((Drive(smallSwerve()).forward(last).twist - alongArc({-0.5, 1.0, -1.0}, 0.02)).norm(), 1e-9);
 }
 
+TEST(WheelCommander, acceleratesFromRestAfterAHalt) {
+  WheelLimits limits = fastMotors();
+  limits.max_acceleration_m_per_s2 = 2.0;
+  WheelCommander commander(differentialDrive(0.4, 0.05), limits);
+  for (int i = 0; i < 10; ++i) commander.command({1.0, 0.0, 0.0}, 0.1);
+  commander.halt();
+  EXPECT_NEAR(commander.command({1.0, 0.0, 0.0}, 0.1)[0].speed_m_per_s, 0.2, 1e-9);
+}
+
 TEST(WheelCommander, acceleratesAllWheelsByOneFactor) {
   WheelLimits limits = fastMotors();
   limits.max_acceleration_m_per_s2 = 1.0;

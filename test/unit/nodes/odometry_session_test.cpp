@@ -100,6 +100,20 @@ TEST_F(OdometrySessionTest, RefusesARollingShutterThatCannotBe) {
   }
 }
 
+TEST_F(OdometrySessionTest, RefusesACameraThatMovesAgainstTheBaseUntilItIsBack) {
+  ASSERT_TRUE(process(frameAt(0.0)).processed);
+  Eigen::Isometry3d& T_base_camera = transforms_[ros_io::frames::kLeftOptical];
+  T_base_camera.rotate(Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitX()));
+  SessionOutput output = process(frameAt(0.1));
+  EXPECT_FALSE(output.processed);
+  EXPECT_TRUE(contains(output.errors["camera_moves"], "moved against base_link by 0.573 deg"))
+      << output.errors["camera_moves"];
+  T_base_camera = baseToCamera();
+  output = process(frameAt(0.2));
+  EXPECT_TRUE(output.processed);
+  EXPECT_LT((output.base.T_odom_base.translation() - expectedPose(0.2).translation()).norm(), kTolerance_m);
+}
+
 TEST_F(OdometrySessionTest, WaitsForTheMountingAndNamesTheCommand) {
   transforms_.erase(ros_io::frames::kLeftOptical);
   SessionOutput output = process(frameAt(0.0));

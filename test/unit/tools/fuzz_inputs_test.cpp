@@ -45,7 +45,7 @@ TEST_P(FuzzInputs, AreReadOrRefused) {
 INSTANTIATE_TEST_SUITE_P(Corpus, FuzzInputs,
                          ::testing::Values("ros", "opencv", "kalibr", "kitti", "euroc", "rig", "times",
                                            "lists", "names", "bag", "angles", "raw", "raw_udp", "phone",
-                                           "laser", "tfmini"),
+                                           "laser", "tfmini", "base"),
                          [](const auto& kind) { return std::string(kind.param); });
 
 }  // namespace

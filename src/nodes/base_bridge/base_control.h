@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinematics/wheel_commander.h"
+#include "ros/base_bridge_params.h"
+#include "sensors/base/controller/protocol.h"
+
+namespace stereo_nav::nodes {
+
+/// Decides what the next command to the controller holds: from velocities, servos and actuators that are
+/// wanted, stops, and what the controller tells. Knows no ROS; times are seconds of any clock that runs on.
+class BaseControl {
+ public:
+  BaseControl(const ros_io::BaseBridgeParams& params, const kinematics::DriveParams& drive);
+
+  /// A velocity for the next cmd_vel_timeout_s. Returns why it is refused, or nothing.
+  std::optional<std::string> setVelocity(const kinematics::Twist& twist, double now_s);
+  /// Returns why it is refused, or nothing. The angle is limited to what the joint can do.
+  std::optional<std::string> setJoint(std::size_t joint, double angle_rad);
+  /// `level`: -1 to 1, limited to that.
+  std::optional<std::string> setActuator(std::size_t actuator, double level);
+
+  /// Stops, until release().
+  void stop();
+  void release();
+
+  void addTelemetry(const base::Telemetry& telemetry, double now_s);
+  /// The next command, one every control period; nothing before the first telemetry, which tells where the
+  /// joints are, unless the base is to stop.
+  std::optional<base::Command> step(double now_s);
+  /// What a node that ends leaves behind: nothing moves, but nothing is latched.
+  base::Command farewell();
+
+  /// Whether the controller is that of this robot, by the numbers of its wheels, joints, ....
+  bool fits(const base::Telemetry& telemetry) const;
+  /// Whether a stop holds, here or in the controller.
+  bool stopped() const { return latched_ || releasing_; }
+  /// Whether the controller has confirmed the latest stop() or release().
+  bool confirmed(double now_s) const;
+  /// Why cmd_vel is refused now; nothing while it is obeyed.
+  std::optional<std::string> obstacle(double now_s) const;
+  bool drives() const { return drives_; }
+  std::uint64_t velocitiesRefused() const { return refused_; }
+  /// How often the wheels were stopped because cmd_vel fell silent while they were to turn.
+  std::uint64_t velocitiesTimedOut() const { return timed_out_; }
+
+ private:
+  base::Command emptyCommand();
+  bool hearsTelemetry(double now_s) const;
+  void fillWheels(base::Command& command, double now_s);
+
+  ros_io::BaseBridgeParams params_;
+  kinematics::WheelCommander commander_;
+  std::size_t wheels_;
+  double period_s_;
+
+  std::optional<base::Telemetry> telemetry_;
+  double telemetry_s_ = 0.0;
+  std::optional<kinematics::Twist> velocity_;
+  double velocity_s_ = 0.0;
+  std::vector<std::int32_t> joint_urad_;
+  std::vector<std::int16_t> actuator_permille_;
+  bool knows_joints_ = false;  ///< telemetry of this base was heard
+  bool latched_ = false;
+  bool releasing_ = false;
+  std::uint16_t order_sequence_ = 0;  ///< of the first command with the latest stop or release
+  bool order_sent_ = true;
+  bool drives_ = false;
+  std::uint16_t sequence_ = 0;
+  std::uint64_t refused_ = 0, timed_out_ = 0;
+};
+
+}  // namespace stereo_nav::nodes
