@@ -30,6 +30,7 @@ double wrapped(double angle_deg) {
 void NodeFramer::reset() {
   size_ = skipped_ = 0;
   aligned_ = turning_known_ = false;
+  step_deg_ = 0.0;
 }
 
 void NodeFramer::push(std::uint8_t byte, const Sink& sink) {
@@ -49,7 +50,7 @@ void NodeFramer::push(std::uint8_t byte, const Sink& sink) {
     if (turning_known_ ? continues() : begins()) {
       deliverRun(turning_known_ ? kKnownRun : kUnknownRun, sink);
     } else {
-      drop(1);
+      dropByte();
     }
   }
 }
@@ -90,7 +91,7 @@ bool NodeFramer::begins() {
     if (std::abs(wrapped(run_[i].heading_deg - even)) > kBeginTolerance_deg) return false;
   }
   if (starts > 1) return false;
-  if (counters_.nodes > 0) {
+  if (step_deg_ > 0.0) {
     const double gap_deg = wrapped(run_.front().heading_deg - turned_deg_ - 180.0) + 180.0;
     counters_.dropped += static_cast<std::uint64_t>(std::max(0L, std::lround(gap_deg / step) - 1));
   }
@@ -144,12 +145,11 @@ void NodeFramer::deliver(const ScanNode& node, std::size_t missing, std::size_t 
   sink(framed);
 }
 
-void NodeFramer::drop(std::size_t count) {
-  std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(count),
-            buffer_.begin() + static_cast<std::ptrdiff_t>(size_), buffer_.begin());
-  size_ -= count;
-  skipped_ += count;
-  counters_.bytes_skipped += count;
+void NodeFramer::dropByte() {
+  std::copy(buffer_.begin() + 1, buffer_.begin() + static_cast<std::ptrdiff_t>(size_), buffer_.begin());
+  --size_;
+  ++skipped_;
+  ++counters_.bytes_skipped;
   if (skipped_ > kForget) turning_known_ = false;
 }
 

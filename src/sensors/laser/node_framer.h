@@ -33,14 +33,14 @@ struct NodeFramerCounters {
 /// Finds the nodes of a scan in a byte stream. There is no check sum, only two check bits, so that the steady
 /// turning of the head decides what is a node:
 ///
-/// 1. Five bytes behind a node are a node when their check bits are right and their heading is within
-///    kTolerance_deg of the expected one (a triangulating scanner's headings depend on the distance and jump
-///    by some degrees at edges).
+/// 1. Five bytes behind a node are a node when their check bits are right and their heading is within 8
+///    degrees of the expected one: a triangulating scanner's headings depend on the distance and jump by some
+///    degrees at edges.
 /// 2. Where that fails, three nodes in a row that continue the turning are needed to go on, at whatever byte:
-/// after
-///    damage, alignment is found anew. Their headings tell how many nodes were lost.
-/// 3. Without a known turning - at the start, or when kForget bytes brought none - six nodes in a row are
-///    needed that turn steadily, with at most one start among them.
+///    after damage, alignment is found anew. Their headings tell how many nodes were lost.
+/// 3. Without a known turning - at the start, or when 60 bytes brought no node - six nodes in a row are
+/// needed
+///    that turn steadily, with at most one start among them.
 ///
 /// Damage to a distance or a quality is not recognisable: that node is wrong, no other one is. Works on a
 /// fixed buffer: no allocation, no read beyond it, bounded work per byte.
@@ -66,7 +66,7 @@ class NodeFramer {
   std::size_t lostBeforeRun() const;
   void deliverRun(std::size_t count, const Sink& sink);
   void deliver(const ScanNode& node, std::size_t missing, std::size_t bytes_behind, const Sink& sink);
-  void drop(std::size_t count);
+  void dropByte();
 
   std::array<std::uint8_t, kUnknownRun * rplidar::kNodeBytes> buffer_{};
   std::size_t size_ = 0;
@@ -74,7 +74,7 @@ class NodeFramer {
   bool aligned_ = false;  ///< the buffer begins directly behind a node
   bool turning_known_ = false;
   double turned_deg_ = 0.0;  ///< smoothed position of the last node
-  double step_deg_ = 0.0;    ///< smoothed turn from node to node
+  double step_deg_ = 0.0;    ///< smoothed turn from node to node; 0: none was ever known
   std::size_t skipped_ = 0;  ///< bytes since the last node
   std::uint64_t index_ = 0;
   bool restarted_ = false;

@@ -33,18 +33,18 @@ std::optional<TfminiFrame> TfminiParser::push(std::uint8_t byte) {
   buffer_[size_++] = byte;
   ++counters_.bytes;
   while (true) {
-    while (size_ > 0 && !headerAt(0)) drop(1);
+    while (size_ > 0 && !headerAt(0)) dropByte();
     if (size_ < tfmini::kFrameBytes) return std::nullopt;
     if (!good()) {
       ++counters_.bad_frames;
-      drop(1);
+      dropByte();
       continue;
     }
     const bool behind_another = !first_ && skipped_ == 0;
     if (behind_another) return take();
     // The header behind it decides, of which two bytes, one or none have come.
     if (size_ > tfmini::kFrameBytes && !headerAt(tfmini::kFrameBytes)) {
-      drop(1);
+      dropByte();
       continue;
     }
     if (size_ < buffer_.size()) return std::nullopt;
@@ -82,12 +82,11 @@ TfminiFrame TfminiParser::take() {
   return frame;
 }
 
-void TfminiParser::drop(std::size_t count) {
-  std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(count),
-            buffer_.begin() + static_cast<std::ptrdiff_t>(size_), buffer_.begin());
-  size_ -= count;
-  skipped_ += count;
-  counters_.bytes_skipped += count;
+void TfminiParser::dropByte() {
+  std::copy(buffer_.begin() + 1, buffer_.begin() + static_cast<std::ptrdiff_t>(size_), buffer_.begin());
+  --size_;
+  ++skipped_;
+  ++counters_.bytes_skipped;
 }
 
 }  // namespace stereo_nav::range

@@ -59,7 +59,7 @@ class TfminiParser {
   bool headerAt(std::size_t offset) const;
   bool good() const;
   TfminiFrame take();
-  void drop(std::size_t count);
+  void dropByte();
 
   std::array<std::uint8_t, tfmini::kFrameBytes + tfmini::kHeaderBytes> buffer_{};
   std::size_t size_ = 0;

@@ -125,6 +125,7 @@ TEST(NodeFramer, AScanThatWasBegunAgainStartsANewCount) {
   ASSERT_EQ(nodes.size(), 50U);
   EXPECT_TRUE(nodes[0].restarted);
   EXPECT_FALSE(nodes[1].restarted);
+  EXPECT_EQ(framer.counters().dropped, 0U);
 }
 
 TEST(NodeFramer, JumpsOfTheHeadingAtEdgesAreNodes) {
