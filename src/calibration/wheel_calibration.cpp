@@ -13,6 +13,9 @@
 namespace stereo_nav::calibration {
 namespace {
 
+// Slip shows over some seconds: shorter windows hold what does not add up, noise of the reference and of its
+// stamps.
+constexpr double kSlip_s = 5.0;
 constexpr double kLongest_s = 60.0;  // of the windows that show what stays wrong on the whole way
 constexpr std::size_t kLeastWindows = 4;
 
@@ -29,14 +32,14 @@ double whereOne(const std::function<double(double)>& mean_square, double low, do
 }
 
 /// Slip and error of the radii for which the covariances are as large as the errors.
-void findErrors(const WheelFit& fit, const WheelWindows& windows, const WheelWindows& long_windows,
+void findErrors(const WheelFit& fit, const WheelWindows& slip_windows, const WheelWindows& long_windows,
                 odometry::WheelOdometryParams& params) {
   params.scale_sigma = 0.0;
   params.slip_sigma_m = whereOne(
       [&](double slip_sigma_m) {
         odometry::WheelOdometryParams tried = params;
         tried.slip_sigma_m = slip_sigma_m;
-        return fit.meanSquare(windows, tried);
+        return fit.meanSquare(slip_windows, tried);
       },
       1e-5, 0.3);
   if (long_windows.windows().size() < kLeastWindows) return;  // chance
@@ -119,6 +122,7 @@ WheelCalibration calibrateWheels(const odometry::WheelOdometryParams& nominal,
   validateParameters(params, "calibration of the wheels");
   const double margin_s = 3.0 * params.time_offset_sigma_s;
   const WheelWindows windows(nominal, runs, params.window_s, margin_s);
+  const WheelWindows slip_windows(nominal, runs, std::max(kSlip_s, params.window_s), margin_s);
   const WheelWindows long_windows(nominal, runs, kLongest_s, margin_s);
   WheelCalibration result;
   result.params = nominal;
@@ -135,7 +139,8 @@ WheelCalibration calibrateWheels(const odometry::WheelOdometryParams& nominal,
   WheelFit fit(windows, nominal, runs.size(), params);
   for (int pass = 0; pass < 3; ++pass) {
     fit.solve();
-    findErrors(fit, windows, long_windows, result.params);
+    findErrors(fit, slip_windows.windows().size() < kLeastWindows ? windows : slip_windows, long_windows,
+               result.params);
     fit.setErrors(result.params);
   }
   fit.solve();

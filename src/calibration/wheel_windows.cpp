@@ -113,7 +113,7 @@ Eigen::Isometry2d WheelWindows::byReference(const Window& window, double offset_
 Eigen::Matrix3d WheelWindows::covariance(const Window& window,
                                          const odometry::WheelOdometryParams& params) const {
   const kinematics::Drive drive(params.drive);
-  odometry::PlanarCovariance covariance(drive.size(), {params.scale_sigma, 0.0});
+  odometry::PlanarCovariance covariance(drive.size(), params.scale_sigma);
   std::vector<double> reading_variance_m2;
   for (const auto& wheel : params.drive.wheels)
     reading_variance_m2.push_back(params.readingVariance_m2(wheel));

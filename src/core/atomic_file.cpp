@@ -18,12 +18,27 @@ namespace {
   throw InputError(path + ": cannot be written: " + why + "; choose another output or free the place");
 }
 
+/// The missing folder nearest to the root on the way to this one; empty where none is missing.
+std::filesystem::path firstMissing(std::filesystem::path folder) {
+  std::filesystem::path missing;
+  for (; !folder.empty() && !std::filesystem::exists(folder); folder = folder.parent_path()) missing = folder;
+  return missing;
+}
+
+/// Folders from `folder` up to `top`, as far as they are empty.
+void removeEmpty(std::filesystem::path folder, const std::filesystem::path& top) {
+  std::error_code in_use;
+  for (; std::filesystem::remove(folder, in_use) && folder != top; folder = folder.parent_path()) {
+  }
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::string path)
     : path_(std::move(path)), temporary_path_(path_ + ".partial-" + std::to_string(::getpid())) {
   if (std::filesystem::is_directory(path_)) cannotWrite(path_, "it is a folder");
   const auto folder = std::filesystem::path(path_).parent_path();
+  created_folder_ = firstMissing(folder).string();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
   if (error) cannotWrite(path_, error.message());
@@ -31,7 +46,9 @@ AtomicFile::AtomicFile(std::string path)
 }
 
 AtomicFile::~AtomicFile() {
-  if (!committed_) std::remove(temporary_path_.c_str());
+  if (committed_) return;
+  std::remove(temporary_path_.c_str());
+  if (!created_folder_.empty()) removeEmpty(std::filesystem::path(path_).parent_path(), created_folder_);
 }
 
 void AtomicFile::commit() {

@@ -5,7 +5,8 @@
 namespace stereo_nav {
 
 /// A file that appears under its name only when it is complete. Its content is written to `temporaryPath()`
-/// in the same folder, and commit() renames that file. Without commit() the destructor removes it.
+/// in the same folder, and commit() renames that file. Without commit() the destructor removes it,
+/// and the folders that were made for it.
 class AtomicFile {
  public:
   /// Creates the temporary file, and its folder where that does not exist. Throws InputError when either
@@ -21,6 +22,7 @@ class AtomicFile {
  private:
   std::string path_;
   std::string temporary_path_;
+  std::string created_folder_;  ///< the first of those that were made; empty if none
   bool committed_ = false;
 };
 

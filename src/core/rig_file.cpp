@@ -21,9 +21,10 @@ void refuseUnknownSections(const YAML::Node& rig, const std::string& source) {
     const auto name = entry.first.as<std::string>();
     bool known = false;
     std::string names;
-    for (const char* section : {rig_sections::kCameras, rig_sections::kImu, rig_sections::kMounting,
-                                rig_sections::kDisparity, rig_sections::kDrive, rig_sections::kWheelOdometry,
-                                rig_sections::kUncertainty, rig_sections::kBase}) {
+    for (const char* section :
+         {rig_sections::kCameras, rig_sections::kImu, rig_sections::kLaser, rig_sections::kRangeFinders,
+          rig_sections::kMounting, rig_sections::kDisparity, rig_sections::kDrive,
+          rig_sections::kWheelOdometry, rig_sections::kUncertainty, rig_sections::kBase}) {
       known = known || name == section;
       names += (names.empty() ? "" : " | ") + std::string(section);
     }

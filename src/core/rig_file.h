@@ -45,6 +45,8 @@ struct Mounting {
 namespace rig_sections {
 constexpr const char* kCameras = "cameras";               ///< stereo_capture's parameters
 constexpr const char* kImu = "imu";                       ///< imu_bridge's parameters
+constexpr const char* kLaser = "laser";                   ///< laser_bridge's parameters
+constexpr const char* kRangeFinders = "range_finders";    ///< range_bridge's parameters
 constexpr const char* kMounting = "mounting";             ///< Mounting
 constexpr const char* kDisparity = "disparity";           ///< parameters of stereo_image_proc/disparity
 constexpr const char* kDrive = "drive";                   ///< the wheels: kinematics::readDrive()

@@ -20,15 +20,20 @@ void BaseOdometry::start(const Eigen::Isometry3d& T_odom_base, const Matrix6d& p
 
 void BaseOdometry::setPose(const Eigen::Isometry3d& T_odom_base, const Matrix6d& pose_covariance) {
   T_odom_start_ = T_odom_base * T_start_base_.inverse();
+  floor_height_m_ = T_odom_base.translation().z();
   estimate_.T_odom_base = T_odom_base;
   estimate_.pose_covariance = covariance_.start(T_odom_base.linear(), pose_covariance);
 }
 
 const BaseEstimate& BaseOdometry::update(const odometry::FrameResult& result, double time_s) {
   T_start_base_ = basePose(T_base_camera_, result.T_start_camera);
-  estimate_.T_odom_base = T_odom_start_ * T_start_base_;
   if (previous_time_s_) setTwist(result, time_s - *previous_time_s_);
-  estimate_.pose_covariance = covariance_.pose(estimate_.T_odom_base.linear());
+  UncertainPose pose;
+  pose.T_odom_base = T_odom_start_ * T_start_base_;
+  pose.covariance = covariance_.pose(pose.T_odom_base.linear());
+  if (floor_.on) pose = onFloor(floor_, floor_height_m_, pose);
+  estimate_.T_odom_base = pose.T_odom_base;
+  estimate_.pose_covariance = pose.covariance;
   previous_time_s_ = time_s;
   previous_lost_ = result.state == odometry::State::kLost;
   return estimate_;

@@ -3,7 +3,10 @@
 namespace stereo_nav::ros_io {
 
 void ImuBridgeParams::describe(ParameterVisitor& visitor) {
-  visitor.text("port", port, "serial port, better by its lasting name /dev/serial/by-id/...");
+  visitor.text(
+      "port", port,
+      "serial port, better by its lasting name /dev/serial/by-id/...; udp:5555 or udp:ADDRESS:5555 receives UDP, "
+      "without ADDRESS from this computer alone");
   visitor.text("by_id_directory", by_id_directory, "folder of lasting names of serial ports");
   visitor.text("frame_id", frame_id, "frame of the module: x forward, y left, z up");
   visitor.text("calibration_file", calibration_file,

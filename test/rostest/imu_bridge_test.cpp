@@ -222,5 +222,22 @@ TEST(ImuBridge, CalibratesARawModuleAndStoresIt) {
   EXPECT_NEAR(turned, 0.0, 0.01) << "0.06 without the calibration";
 }
 
+TEST(ImuBridge, CalibratesAPhoneThroughLossAndOvertaking) {
+  Bridge bridge("phone");
+  ASSERT_TRUE(spinUntil([&] { return bridge.data.size() > 300 && bridge.data_raw.size() > 300; }));
+  EXPECT_NEAR(bridge.data_raw.back().linear_acceleration.z, 9.80665, 1e-3);
+  EXPECT_NEAR(bridge.data_raw.back().angular_velocity.z, 0.03, 0.01);
+  for (std::size_t i = 1; i < bridge.data.size(); ++i) {
+    EXPECT_GT(bridge.data[i].header.stamp, bridge.data[i - 1].header.stamp);
+  }
+  const auto answer = bridge.call("imu/calibrate_gyro");
+  ASSERT_TRUE(answer.success) << answer.message;
+  const auto stored = imu::loadCalibration(portsFolder() + "/phone.yaml");
+  EXPECT_LT((stored.gyroscope_bias.value - Eigen::Vector3d(0.02, -0.01, 0.03)).norm(), 5e-4);
+  EXPECT_TRUE(
+      spinUntil([&] { return !bridge.diagnostics.empty() && bridge.lastValue("late frames") > 0.0; }));
+  EXPECT_GT(bridge.lastValue("lost frames"), 0.0);
+}
+
 }  // namespace
 }  // namespace stereo_nav::test

@@ -62,6 +62,15 @@ std::unique_ptr<NodeProcess> startModule(const std::string& folder, const std::s
           "/module --trajectory " + folder + "/" + motion + " " + kErrors});
 }
 
+void expectFound(const std::string& file) {
+  const imu::ImuCalibration found = imu::loadCalibration(file);
+  EXPECT_LT((found.gyroscope_bias.value - kBias).norm(), 5e-4) << found.gyroscope_bias.value.transpose();
+  EXPECT_LT((found.accelerometer_offset.value - kOffset).norm(), 0.02)
+      << found.accelerometer_offset.value.transpose();
+  EXPECT_LT((found.accelerometer_scale.value.cwiseProduct(kGain) - Vector3d::Ones()).norm(), 2e-3)
+      << found.accelerometer_scale.value.transpose();
+}
+
 TEST(ImuCalibration, WhatCalibrateImuFindsTheBridgeTakesOff) {
   const std::string folder = ros::param::param<std::string>("~folder", "");
   writeTrajectory(folder + "/turns.tum", handTurns, kRest_s + 3 * kTurn_s);
@@ -75,12 +84,7 @@ TEST(ImuCalibration, WhatCalibrateImuFindsTheBridgeTakesOff) {
       runCommand(CALIBRATE_IMU " --port " + folder + "/module --rest 3 --turns 16.5 --output " + file);
   ASSERT_EQ(result.status, 0) << result.output;
   EXPECT_EQ(module->stop(), 0);
-  const imu::ImuCalibration found = imu::loadCalibration(file);
-  EXPECT_LT((found.gyroscope_bias.value - kBias).norm(), 5e-4) << found.gyroscope_bias.value.transpose();
-  EXPECT_LT((found.accelerometer_offset.value - kOffset).norm(), 0.02)
-      << found.accelerometer_offset.value.transpose();
-  EXPECT_LT((found.accelerometer_scale.value.cwiseProduct(kGain) - Vector3d::Ones()).norm(), 2e-3)
-      << found.accelerometer_scale.value.transpose();
+  expectFound(file);
 
   module = startModule(folder, "rest.tum");
   std::vector<sensor_msgs::Imu> data;
@@ -104,6 +108,23 @@ TEST(ImuCalibration, WhatCalibrateImuFindsTheBridgeTakesOff) {
   const auto& q = data.back().orientation;
   EXPECT_LT(Quaterniond(q.w, q.x, q.y, q.z).angularDistance(tiltedAtRest(0.0)), 0.01)
       << "2 deg without the file";
+}
+
+TEST(ImuCalibration, APhoneIsCalibratedOverUdp) {
+  const std::string folder = ros::param::param<std::string>("~folder", "");
+  writeTrajectory(folder + "/turns.tum", handTurns, kRest_s + 3 * kTurn_s);
+  const std::string file = folder + "/phone.yaml";
+  std::filesystem::remove(file);
+  // The program listens before the phone sends.
+  const auto result = runCommand("(sleep 1; exec " IMU_EMULATOR
+                                 " --udp udp:45685 --protocol phone --rate 200 --duration 25 "
+                                 "--trajectory " +
+                                 folder + "/turns.tum " + kErrors +
+                                 ") > /dev/null 2>&1 & exec " CALIBRATE_IMU
+                                 " --port udp:45685 --protocol phone --rest 3 --turns 16.5 --output " +
+                                 file);
+  ASSERT_EQ(result.status, 0) << result.output;
+  expectFound(file);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "stereo_nav/core/lie.h"
+#include "stereo_nav/estimation/floor_constraint.h"
 #include "stereo_nav/estimation/odom_covariance.h"
 #include "stereo_nav/odometry/common/odometry.h"
 
@@ -27,6 +28,8 @@ class BaseOdometry {
 
   /// Sets the parameters for all later motions.
   void setUncertainty(const UncertaintyParams& params) { covariance_.setUncertainty(params); }
+  /// Whether the base stays on the floor on which it started, or was set. From the next frame on.
+  void setFloor(const FloorParams& params) { floor_ = params; }
 
   /// The odometry begins anew: its next first frame is taken at `T_odom_base`.
   void start(const Eigen::Isometry3d& T_odom_base, const Matrix6d& pose_covariance);
@@ -42,6 +45,8 @@ class BaseOdometry {
   void setTwist(const odometry::FrameResult& result, double interval_s);
 
   OdomCovariance covariance_;
+  FloorParams floor_;
+  double floor_height_m_ = 0.0;  ///< in odom
   Eigen::Isometry3d T_base_camera_;
   Eigen::Isometry3d T_odom_start_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_start_base_ = Eigen::Isometry3d::Identity();  ///< newest, by the odometry

@@ -9,13 +9,11 @@
 #include "core/rig_file.h"
 #include "nodes/imu_bridge/imu_messages.h"
 #include "ros/parameter_server.h"
-#include "sensors/serial/steady_clock.h"
 #include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::nodes {
 namespace {
 
-constexpr double kRepeat_s = 10.0;
 /// Time that the service waits beyond the duration of the measurement.
 constexpr double kCalibrationPatience_s = 5.0;
 
@@ -49,7 +47,7 @@ ImuBridgeNode::ImuBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandl
       }) {
   data_ = handle_.advertise<sensor_msgs::Imu>(ros_io::topics::kImu, 100);
   quaternion_ = handle_.advertise<geometry_msgs::Quaternion>(ros_io::topics::kImuQuaternion, 100);
-  if (params_.device.protocol == imu::Protocol::kRaw) {
+  if (params_.device.protocol != imu::Protocol::kAngles) {
     data_raw_ = handle_.advertise<sensor_msgs::Imu>("imu/data_raw", 100);
   }
   if (params_.chatter) chatter_ = handle_.advertise<std_msgs::String>("chatter", 10);
@@ -68,19 +66,8 @@ void ImuBridgeNode::run() {
   calibrated_.notify_all();
 }
 
-/// Stamps come from the steady clock, which clock synchronisation does not set; its offset to ROS time is
-/// measured for each stamp.
-ros::Time ImuBridgeNode::rosTime(double steady_s) {
-  ros::Time stamp = ros::Time::now() - ros::Duration(serial::steadyNow_s() - steady_s);
-  const ros::Duration one_microsecond(0, 1000);
-  const bool clock_was_set_back = last_stamp_ - stamp > ros::Duration(1.0);
-  if (stamp <= last_stamp_ && !clock_was_set_back) stamp = last_stamp_ + one_microsecond;
-  last_stamp_ = stamp;
-  return stamp;
-}
-
 void ImuBridgeNode::publish(const imu::ImuReading& reading) {
-  const ros::Time stamp = rosTime(reading.time_s);
+  const ros::Time stamp = stamps_.at(reading.time_s);
   imu::ImuEstimate estimate;
   sensor_msgs::Imu message, message_raw;
   {
@@ -113,7 +100,7 @@ void ImuBridgeNode::publishAngles(const imu::ModuleAngles& angles) {
 
 bool ImuBridgeNode::calibrateGyro(std_srvs::Trigger::Request& /*request*/,
                                   std_srvs::Trigger::Response& response) {
-  if (params_.device.protocol != imu::Protocol::kRaw) {
+  if (params_.device.protocol == imu::Protocol::kAngles) {
     response.message =
         "this module sends angles, not rates: it calibrates its own gyroscope when it is switched on at rest";
     return true;
@@ -161,42 +148,20 @@ bool ImuBridgeNode::resetYaw(std_srvs::Trigger::Request& /*request*/, std_srvs::
 
 void ImuBridgeNode::watch(const ros::WallTimerEvent& /*event*/) {
   updater_.update();
-  reportState();
-}
-
-/// Logs changes at once, and repeats a problem every ten seconds.
-void ImuBridgeNode::reportState() {
   const imu::ImuDeviceStatus status = device_.status();
-  const bool good = status.state == serial::LinkState::kStreaming;
-  if (status.state == serial::LinkState::kWaiting) return;
-  const ros::WallTime now = ros::WallTime::now();
-  const bool changed = status.state != reported_state_;
-  if (!changed && (good || (now - reported_at_).toSec() < kRepeat_s)) return;
-  reported_state_ = status.state;
-  reported_at_ = now;
-  if (good) {
-    ROS_INFO_STREAM(params_.port << ": " << status.message);
-  } else {
-    ROS_ERROR_STREAM(params_.port << ": " << status.message);
-  }
+  report_.log(params_.port, status.state, status.message);
 }
 
 void ImuBridgeNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using Level = diagnostic_msgs::DiagnosticStatus;
   const imu::ImuDeviceStatus device = device_.status();
   const auto bad = device.counters.bad_frames - reported_counters_.bad_frames;
   const auto good = device.counters.frames - reported_counters_.frames;
   reported_counters_ = device.counters;
-  if (device.state == serial::LinkState::kWaiting) {
-    status.summary(Level::WARN, device.message);
-  } else if (device.state != serial::LinkState::kStreaming) {
-    status.summary(Level::ERROR, device.message);
-  } else if (10 * bad > good) {
-    status.summary(Level::WARN,
-                   "more than a tenth of the frames are damaged: check cable, ground and baud rate");
-  } else {
-    status.summary(Level::OK, device.message);
-  }
+  const bool damaged = 10 * bad > good;
+  ros_io::summarise(
+      device.state, device.message,
+      damaged ? "more than a tenth of the frames are damaged: check cable, ground and baud rate" : "",
+      status);
   status.add("port", params_.port);
   status.add("rate (Hz)", device.rate_hz);
   status.add("arrival jitter (ms)", 1e3 * device.arrival_jitter_s);
@@ -204,6 +169,7 @@ void ImuBridgeNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("frames", device.counters.frames);
   status.add("bad frames", device.counters.bad_frames);
   status.add("lost frames", device.counters.lost_frames);
+  status.add("late frames", device.counters.late_frames);
   status.add("bytes", device.counters.bytes);
   status.add("bytes skipped", device.counters.bytes_skipped);
   status.add("connections", device.connections);

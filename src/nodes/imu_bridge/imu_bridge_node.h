@@ -9,7 +9,9 @@
 #include <optional>
 
 #include "ros/imu_bridge_params.h"
+#include "ros/link_report.h"
 #include "ros/live_parameters.h"
+#include "ros/steady_stamps.h"
 #include "sensors/imu/imu_estimator.h"
 
 namespace stereo_nav::nodes {
@@ -27,13 +29,11 @@ class ImuBridgeNode {
  private:
   void publish(const imu::ImuReading& reading);
   void publishAngles(const imu::ModuleAngles& angles);
-  ros::Time rosTime(double steady_s);
   bool calibrateGyro(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool resetYaw(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void finishCalibration(const imu::GyroCalibrator::Result& result, std_srvs::Trigger::Response& response);
   void fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status);
   void watch(const ros::WallTimerEvent& event);
-  void reportState();
 
   ros::NodeHandle handle_, private_handle_;
   const ros_io::ImuBridgeParams params_;  ///< values at the start
@@ -42,7 +42,7 @@ class ImuBridgeNode {
   ros::ServiceServer calibrate_gyro_, reset_yaw_;
   diagnostic_updater::Updater updater_;
   ros::WallTimer watch_timer_;
-  ros::Time last_stamp_;
+  ros_io::SteadyStamps stamps_;
 
   std::mutex mutex_;              ///< guards estimator, calibrator and live_
   ros_io::ImuBridgeParams live_;  ///< current values, as set by dynamic_reconfigure
@@ -50,8 +50,7 @@ class ImuBridgeNode {
   imu::ImuEstimator estimator_;
   std::optional<imu::GyroCalibrator> calibrator_;
 
-  serial::LinkState reported_state_ = serial::LinkState::kWaiting;
-  ros::WallTime reported_at_;
+  ros_io::LinkReport report_;
   imu::DecoderCounters reported_counters_;
   ros_io::LiveParameters<ros_io::ImuBridgeParams> live_parameters_;
 };

@@ -58,7 +58,10 @@ SessionOutput OdometrySession::process(const ros_io::Inbox::Work& work, const Se
 
 void OdometrySession::applyLive(const VisualOdometryParams& params) {
   params_ = params;
-  if (base_) base_->setUncertainty(params.uncertainty);
+  if (base_) {
+    base_->setUncertainty(params.uncertainty);
+    base_->setFloor(params.floor);
+  }
 }
 
 void OdometrySession::reset() {
@@ -177,6 +180,7 @@ void OdometrySession::makeOdometry(SessionOutput& output) {
       config_, calibration, odometry::SensorAxes{T_base_camera_.linear(), R_base_imu_});
   const std::optional<estimation::BaseOdometry> before = std::move(base_);
   base_.emplace(params_.uncertainty, T_base_camera_);
+  base_->setFloor(params_.floor);
   if (before) base_->start(before->estimate().T_odom_base, before->estimate().pose_covariance);
   camera_order_.emplace(calibration);
   for (const std::string& note : judged_.notes) output.notes.push_back(note);

@@ -25,6 +25,7 @@ void VisualOdometryParams::describe(ParameterVisitor& visitor) {
   visitSection(visitor, "synchronisation", synchronisation);
   visitSection(visitor, "waiting", waiting);
   visitSection(visitor, "uncertainty", uncertainty);
+  floor.describe(visitor);
 }
 
 }  // namespace stereo_nav::nodes

@@ -28,6 +28,7 @@ struct VisualOdometryParams {
   ros_io::FrameSynchroniserParams synchronisation;
   ros_io::InboxParams waiting;
   estimation::UncertaintyParams uncertainty;
+  estimation::FloorParams floor;
 
   void describe(ParameterVisitor& visitor);
 };

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <utility>
 
+#include "core/angles.h"
 #include "core/planar_motion.h"
 #include "kinematics/drive_file.h"
 #include "nodes/wheel_odometry/wheel_messages.h"
@@ -178,6 +179,7 @@ void WheelOdometryNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& 
   status.add("readings without the IMU's yaw", session_.readingsWithoutImu());
   status.add("IMU", session_.knowsImu() ? "used" : "not used");
   status.addf("slip, 1 is expected", "%.2f", last_.slip);
+  status.addf("drift of the IMU's yaw [deg/s]", "%.4f", last_.yaw_drift_rad_per_s * kDegPerRad);
   status.addf("speed [m/s], turning [rad/s]", "%.3f, %.3f", last_.twist.head<2>().norm(), last_.twist.z());
 }
 

@@ -9,7 +9,8 @@ constexpr Eigen::Index kPlanarAxes[] = {0, 1, 5};  // x, y and yaw among those o
 
 }  // namespace
 
-PlanarCovariance::PlanarCovariance(std::size_t wheels, const ConstantErrors& errors) : errors_(errors) {
+PlanarCovariance::PlanarCovariance(std::size_t wheels, double scale_sigma)
+    : scale_variance_(scale_sigma * scale_sigma) {
   with_reading_.setZero(3, static_cast<Eigen::Index>(wheels));
   scale_gain_ = with_reading_;
 }
@@ -18,7 +19,7 @@ void PlanarCovariance::reset(const Eigen::Matrix3d& covariance) {
   random_ = covariance;
   with_reading_.setZero();
   scale_gain_.setZero();
-  drift_gain_.setZero();
+  with_drift_.setZero();
 }
 
 void PlanarCovariance::append(const WheelStep& step, const std::vector<double>& reading_variance_m2) {
@@ -31,7 +32,14 @@ void PlanarCovariance::append(const WheelStep& step, const std::vector<double>& 
   const WheelColumns gain = J * motion.gain;
   const Eigen::Vector3d yaw_gain = J * motion.yaw_gain;
 
+  // A measured drift is known better by a factor, and so is what the pose shares with it.
+  if (step.yaw_drift_variance < drift_variance_) with_drift_ *= step.yaw_drift_variance / drift_variance_;
+  drift_variance_ = step.yaw_drift_variance;
+  const Eigen::Vector3d drift_gain = step.duration_s * yaw_gain;
+  const Eigen::Matrix3d drifted = F * with_drift_ * drift_gain.transpose();
+
   random_ = (F * random_ * F.transpose()).eval();
+  random_ += drifted + drifted.transpose() + drift_variance_ * drift_gain * drift_gain.transpose();
   random_ += J * motion.sideways_covariance * J.transpose();
   if (interval.yaw_rad) random_ += interval.yaw_variance_rad2 * yaw_gain * yaw_gain.transpose();
   for (Eigen::Index i = 0; i < gain.cols(); ++i) {
@@ -44,12 +52,11 @@ void PlanarCovariance::append(const WheelStep& step, const std::vector<double>& 
     with_reading_.col(i) = reading_variance_m2[wheel] * g;
     scale_gain_.col(i) = (F * scale_gain_.col(i)).eval() + interval.distance_m[wheel] * g;
   }
-  drift_gain_ = (F * drift_gain_).eval() + step.duration_s * yaw_gain;
+  with_drift_ = (F * with_drift_).eval() + drift_variance_ * drift_gain;
 }
 
 Eigen::Matrix3d PlanarCovariance::covariance() const {
-  return random_ + errors_.scale * errors_.scale * scale_gain_ * scale_gain_.transpose() +
-         errors_.yaw_drift_rad_per_s * errors_.yaw_drift_rad_per_s * drift_gain_ * drift_gain_.transpose();
+  return random_ + scale_variance_ * scale_gain_ * scale_gain_.transpose();
 }
 
 Eigen::Matrix3d inAxesOf(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance) {

@@ -14,12 +14,7 @@ struct WheelStep {
   IntervalMotion motion;
   double duration_s = 0.0;
   std::vector<double> slip_variance_m2;  ///< of each wheel
-};
-
-/// Standard deviations of the errors that stay the same on the whole way.
-struct ConstantErrors {
-  double scale = 0.0;                ///< relative, of each wheel's radius
-  double yaw_drift_rad_per_s = 0.0;  ///< of the IMU
+  double yaw_drift_variance = 0.0;       ///< rad^2/s^2, of the drift that is left in the IMU's yaw
 };
 
 /// Covariance of a pose that is composed of intervals, for an error in the axes of the base: T = T_estimated
@@ -29,10 +24,12 @@ struct ConstantErrors {
 /// way the first
 ///   and the last reading alone count;
 /// * radii and the drift of the yaw stay wrong: the errors themselves add, and the variance grows with the
-/// square.
+/// square. A drift that is measured while the base rests is wrong by less from there on; what it has done to
+/// the pose stays.
 class PlanarCovariance {
  public:
-  PlanarCovariance(std::size_t wheels, const ConstantErrors& errors);
+  /// `scale_sigma` is the relative error of each wheel's radius.
+  PlanarCovariance(std::size_t wheels, double scale_sigma);
 
   /// Starts anew from a pose with this covariance (axes of the base).
   void reset(const Eigen::Matrix3d& covariance);
@@ -43,11 +40,12 @@ class PlanarCovariance {
   Eigen::Matrix3d covariance() const;
 
  private:
-  ConstantErrors errors_;
-  Eigen::Matrix3d random_ = Eigen::Matrix3d::Zero();  ///< from slip and readings
+  double scale_variance_;
+  Eigen::Matrix3d random_ = Eigen::Matrix3d::Zero();  ///< from slip, readings and the IMU
   WheelColumns with_reading_;  ///< covariance of the pose and each wheel's last reading
   WheelColumns scale_gain_;    ///< d pose / d relative error of each radius
-  Eigen::Vector3d drift_gain_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d with_drift_ = Eigen::Vector3d::Zero();  ///< covariance of the pose and the drift
+  double drift_variance_ = 0.0;                           ///< of the last interval
 };
 
 /// The covariance of a pose, given in the axes of the base, in those of odom.

@@ -26,7 +26,8 @@ WheelOdometry::WheelOdometry(const WheelOdometryParams& params)
     : params_(checked(params)),
       drive_(params_.drive),
       encoders_(drive_),
-      covariance_(drive_.size(), {params_.scale_sigma, params_.yaw_drift_sigma_rad_per_s}) {
+      covariance_(drive_.size(), params_.scale_sigma),
+      yaw_drift_(params_, drive_) {
   step_.slip_variance_m2.assign(drive_.size(), 0.0);
   for (const auto& wheel : params_.drive.wheels)
     reading_variance_m2_.push_back(params_.readingVariance_m2(wheel));
@@ -71,9 +72,21 @@ void WheelOdometry::measureInterval(const WheelSample& sample) {
   interval.steering_rad.resize(sample.steering_rad.size());
   for (std::size_t i = 0; i < sample.steering_rad.size(); ++i)
     interval.steering_rad[i] = meanSteering_rad(last_->steering_rad[i], sample.steering_rad[i]);
+  takeYaw(sample);
+}
+
+/// After the distances. Freed from the drift; left out at rest, where the wheels know better.
+void WheelOdometry::takeYaw(const WheelSample& sample) {
+  WheelInterval& interval = step_.interval;
   interval.yaw_rad.reset();
-  if (sample.yaw_rad && last_->yaw_rad) interval.yaw_rad = wrapRadians(*sample.yaw_rad - *last_->yaw_rad);
   interval.yaw_variance_rad2 = params_.yaw_sigma_rad * params_.yaw_sigma_rad * step_.duration_s;
+  if (sample.yaw_rad && last_->yaw_rad) interval.yaw_rad = wrapRadians(*sample.yaw_rad - *last_->yaw_rad);
+  const bool turned = std::any_of(interval.distance_m.begin(), interval.distance_m.end(),
+                                  [](double distance_m) { return distance_m != 0.0; });
+  yaw_drift_.add(turned, interval.yaw_rad, step_.duration_s);
+  step_.yaw_drift_variance = yaw_drift_.variance();
+  if (yaw_drift_.atRest()) interval.yaw_rad.reset();
+  if (interval.yaw_rad) *interval.yaw_rad -= yaw_drift_.rate_rad_per_s() * step_.duration_s;
 }
 
 void WheelOdometry::compose(const IntervalMotion& motion) {
@@ -112,6 +125,7 @@ WheelOdometryResult WheelOdometry::resultAt(double time_s) {
   result.T_odom_base = T_odom_base_;
   result.pose_covariance = covariance_.covariance();
   result.slip = std::sqrt(slip_factor_);
+  result.yaw_drift_rad_per_s = yaw_drift_.rate_rad_per_s();
   result.problem = encoders_.finding();
   if (marks_.size() > 1) {
     const double window_s = time_s - marks_.front().time_s;

@@ -11,6 +11,7 @@
 #include "odometry/wheel/encoder_check.h"
 #include "odometry/wheel/planar_covariance.h"
 #include "odometry/wheel/wheel_odometry_params.h"
+#include "odometry/wheel/yaw_drift.h"
 
 namespace stereo_nav::odometry {
 
@@ -30,12 +31,14 @@ struct WheelOdometryResult {
   kinematics::Twist twist = kinematics::Twist::Zero();        ///< mean over the window, axes of the base
   Eigen::Matrix3d twist_covariance = Eigen::Matrix3d::Zero();  ///< of it
   double slip = 1.0;  ///< root mean square of the normalised contradictions of the last second; 1 is expected
+  double yaw_drift_rad_per_s = 0.0;  ///< of the IMU, found while the base rests and taken off
   std::string problem;  ///< an encoder that is reversed, swapped or dead, with the remedy; empty if none
 };
 
 /// Pose of a base from the pulses of its wheels. Each interval is an arc: the base moves with a constant
 /// twist, found by weighted least squares over all wheels and the IMU's yaw increment, and the pose is
-/// composed with its exponential.
+/// composed with its exponential. While the wheels stand still the base does not turn, whatever the IMU says:
+/// that shows the drift of its yaw, which is taken off from there on.
 class WheelOdometry {
  public:
   /// Throws ParameterError for a drive that cannot be used.
@@ -63,6 +66,7 @@ class WheelOdometry {
 
   void check(const WheelSample& sample) const;
   void measureInterval(const WheelSample& sample);
+  void takeYaw(const WheelSample& sample);
   void compose(const IntervalMotion& motion);
   WheelOdometryResult resultAt(double time_s);
   Eigen::Matrix3d twistCovariance(double window_s) const;
@@ -71,6 +75,7 @@ class WheelOdometry {
   kinematics::Drive drive_;
   EncoderCheck encoders_;
   PlanarCovariance covariance_;
+  YawDrift yaw_drift_;
   std::optional<WheelSample> last_;
   Eigen::Isometry2d T_odom_base_ = Eigen::Isometry2d::Identity();
   WheelStep step_;                           ///< the last interval

@@ -48,8 +48,12 @@ class AngleDecoder : public FrameDecoder {
   }
 
   DecoderCounters counters() const override {
-    return {framer_.counters().bytes, framer_.counters().bytes_skipped, gate_.counters().delivered,
-            framer_.counters().impossible + gate_.counters().implausible, lost_};
+    return {framer_.counters().bytes,
+            framer_.counters().bytes_skipped,
+            gate_.counters().delivered,
+            framer_.counters().impossible + gate_.counters().implausible,
+            lost_,
+            0};
   }
 
   double wireTime_s() const override { return AngleFramer::kFrameBytes * byte_time_s_; }
@@ -109,7 +113,7 @@ class RawDecoder : public FrameDecoder {
 
   DecoderCounters counters() const override {
     const RawParserCounters& c = parser_.counters();
-    return {c.bytes, c.bytes_skipped, c.delivered, c.bad_crc + c.impossible, c.lost};
+    return {c.bytes, c.bytes_skipped, c.delivered, c.bad_crc + c.impossible, c.lost, 0};
   }
 
   double wireTime_s() const override { return raw_protocol::kFrameBytes * byte_time_s_; }

@@ -11,7 +11,8 @@
 
 namespace stereo_nav::imu {
 
-enum class Protocol { kAngles, kRaw };
+/// What a module sends; a phone's text comes over UDP alone, angles over serial lines alone.
+enum class Protocol { kAngles, kRaw, kPhone };
 
 /// One frame of either protocol; exactly one of `angles` and `raw` is present.
 struct DecodedFrame {
@@ -29,10 +30,11 @@ struct DecoderCounters {
   std::uint64_t bytes_skipped = 0;
   std::uint64_t frames = 0;
   std::uint64_t bad_frames = 0;   ///< check sum wrong, values impossible or implausible
-  std::uint64_t lost_frames = 0;  ///< gaps: by sequence number (raw), by bytes (angles)
+  std::uint64_t lost_frames = 0;  ///< gaps: by sequence number (raw), bytes (angles) or time (phone)
+  std::uint64_t late_frames = 0;  ///< over UDP: overtaken by a newer one, or doubled; left out
 };
 
-/// Bytes in, frames out, for one of the two protocols.
+/// Bytes in, frames out, for one of the protocols.
 class FrameDecoder {
  public:
   using Sink = std::function<void(const DecodedFrame&)>;
@@ -51,5 +53,9 @@ class FrameDecoder {
 /// `baud_rate` is that of the line, bits/s: it tells how long a frame is on the wire.
 std::unique_ptr<FrameDecoder> makeAngleDecoder(AngleOrder order, const AngleGateParams& gate, int baud_rate);
 std::unique_ptr<FrameDecoder> makeRawDecoder(int baud_rate);
+/// Over UDP each push() is one datagram, and each datagram stands for itself: those that were overtaken are
+/// left out. A raw datagram holds whole frames, a phone's one sample (phone_protocol.h).
+std::unique_ptr<FrameDecoder> makeRawDatagramDecoder();
+std::unique_ptr<FrameDecoder> makePhoneDecoder();
 
 }  // namespace stereo_nav::imu

@@ -12,11 +12,28 @@ namespace {
 /// Time over which rate and jitter are measured.
 constexpr double kReportPeriod_s = 5.0;
 
+std::unique_ptr<FrameDecoder> makeDecoder(const ImuDeviceParams& params, bool udp) {
+  if (params.protocol == Protocol::kAngles) {
+    if (udp)
+      throw ParameterError("protocol: angles come over a serial port, not over UDP; choose raw or phone");
+    return makeAngleDecoder(params.angle_order, params.gate, params.baud_rate);
+  }
+  if (params.protocol == Protocol::kRaw) {
+    return udp ? makeRawDatagramDecoder() : makeRawDecoder(params.baud_rate);
+  }
+  if (!udp)
+    throw ParameterError(
+        "protocol: a phone sends UDP; set port to udp:0.0.0.0:5555, or to udp:5555 for this "
+        "computer alone");
+  return makePhoneDecoder();
+}
+
 }  // namespace
 
 void ImuDeviceParams::describe(ParameterVisitor& visitor) {
-  visitEnum(visitor, "protocol", protocol, {{"angles", Protocol::kAngles}, {"raw", Protocol::kRaw}},
-            "what the module sends: three angles, or gyroscope and accelerometer");
+  visitEnum(visitor, "protocol", protocol,
+            {{"angles", Protocol::kAngles}, {"raw", Protocol::kRaw}, {"phone", Protocol::kPhone}},
+            "what the module sends: three angles, gyroscope and accelerometer, or a phone's text over UDP");
   visitor.integer("baud_rate", baud_rate, {300, 12000000}, "baud", "speed of the serial line");
   visitEnum(visitor, "angle_order", angle_order,
             {{"yaw_pitch_roll", AngleOrder::kYawPitchRoll}, {"roll_pitch_yaw", AngleOrder::kRollPitchYaw}},
@@ -31,20 +48,24 @@ void ImuDeviceParams::describe(ParameterVisitor& visitor) {
 ImuDevice::ImuDevice(const ImuDeviceParams& params, serial::PortFinder port)
     : params_(params),
       finder_(std::move(port)),
-      decoder_(params.protocol == Protocol::kAngles
-                   ? makeAngleDecoder(params.angle_order, params.gate, params.baud_rate)
-                   : makeRawDecoder(params.baud_rate)),
+      udp_(parseUdpAddress(finder_.locate())),
+      decoder_(makeDecoder(params, udp_.has_value())),
       stamps_(params.stamps),
       link_(params.link, [this] { return open(); }) {}
 
 std::shared_ptr<serial::ByteSource> ImuDevice::open() {
-  auto port = std::make_shared<serial::SerialPort>(finder_.locate(), params_.baud_rate);
-  finder_.remember();
+  std::shared_ptr<serial::ByteSource> source;
+  if (udp_) {
+    source = std::make_shared<UdpSource>(*udp_);
+  } else {
+    source = std::make_shared<serial::SerialPort>(finder_.locate(), params_.baud_rate);
+    finder_.remember();
+  }
   decoder_->reset();
   stamps_.reset();
   const std::lock_guard<std::mutex> lock(mutex_);
   jitter_.restart();
-  return port;
+  return source;
 }
 
 void ImuDevice::poll(double timeout_s, const Sink& sink) {
@@ -92,6 +113,7 @@ ImuDeviceStatus ImuDevice::status() const {
 
 std::string ImuDevice::explain(const serial::LinkStatus& link) const {
   using serial::LinkState;
+  if (udp_) return explainUdp(link);
   std::ostringstream text;
   text.precision(3);
   switch (link.state) {
@@ -107,6 +129,33 @@ std::string ImuDevice::explain(const serial::LinkStatus& link) const {
       text << "bytes arrive but no frames: check the baud rate (" << params_.baud_rate
            << " here) and the protocol (" << (params_.protocol == Protocol::kAngles ? "angles" : "raw")
            << " here)";
+      break;
+    case LinkState::kStreaming:
+      return "streaming";
+  }
+  return text.str();
+}
+
+std::string ImuDevice::explainUdp(const serial::LinkStatus& link) const {
+  using serial::LinkState;
+  std::ostringstream text;
+  text.precision(3);
+  switch (link.state) {
+    case LinkState::kDisconnected:
+      return link.fault;
+    case LinkState::kWaiting:
+      return "waiting for the first datagrams on " + udp_->text();
+    case LinkState::kSilent:
+      text << "no datagrams for " << link.silent_s << " s on " << udp_->text()
+           << ": is the stream on, and to this computer's address and this port? ";
+      text << (udp_->host.rfind("127.", 0) == 0 ? "Only this computer is heard: port udp:0.0.0.0:" +
+                                                      std::to_string(udp_->port) + " hears the network, too"
+                                                : std::string("Does a firewall keep them away?"));
+      break;
+    case LinkState::kNoFrames:
+      text << "datagrams arrive, but no measurements: check the protocol ("
+           << (params_.protocol == Protocol::kPhone ? "phone" : "raw")
+           << " here), and that gyroscope and accelerometer are switched on in the app";
       break;
     case LinkState::kStreaming:
       return "streaming";

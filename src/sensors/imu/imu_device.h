@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sensors/imu/frame_decoder.h"
+#include "sensors/imu/udp_source.h"
 #include "sensors/serial/link.h"
 #include "sensors/serial/link_monitor.h"
 #include "sensors/serial/port_finder.h"
@@ -45,12 +46,14 @@ struct ImuDeviceStatus {
   DecoderCounters counters;
 };
 
-/// A module on a serial port that may appear, disappear and fall silent. Faults of the line never throw: the
-/// device reports them, retries every `retry_s`, and resumes.
+/// A module on a serial port, or one that sends UDP, that may appear, disappear and fall silent. Faults of
+/// the line never throw: the device reports them, retries every `retry_s`, and resumes.
 class ImuDevice {
  public:
   using Sink = std::function<void(const ImuReading&)>;
 
+  /// `port`: serial port, or what parseUdpAddress() takes. Throws ParameterError where protocol and port do
+  /// not go together.
   ImuDevice(const ImuDeviceParams& params, serial::PortFinder port);
 
   /// Waits for bytes for at most `timeout_s` and passes on the readings that they complete. To be called from
@@ -63,9 +66,11 @@ class ImuDevice {
   std::shared_ptr<serial::ByteSource> open();
   void deliver(const DecodedFrame& frame, const Sink& sink);
   std::string explain(const serial::LinkStatus& link) const;
+  std::string explainUdp(const serial::LinkStatus& link) const;
 
   ImuDeviceParams params_;
   serial::PortFinder finder_;
+  std::optional<UdpAddress> udp_;  ///< nothing: a serial port
   std::unique_ptr<FrameDecoder> decoder_;
   serial::StampFilter stamps_;
   serial::Link link_;

@@ -41,12 +41,6 @@ bool within(const Eigen::Vector3d& v, double limit) {
   return std::abs(v.x()) <= limit && std::abs(v.y()) <= limit && std::abs(v.z()) <= limit;  // false for NaN
 }
 
-bool possible(const RawMeasurement& measurement) {
-  return within(measurement.angular_velocity, kMaxRate_rad_s) &&
-         within(measurement.linear_acceleration, kMaxAcceleration_m_s2) &&
-         (!measurement.magnetic_field || within(*measurement.magnetic_field, kMaxField_uT));
-}
-
 RawMeasurement decodePayload(const std::uint8_t* payload, bool with_magnetometer) {
   RawMeasurement measurement;
   measurement.sequence = serial::readUnsigned<std::uint16_t>(payload);
@@ -74,6 +68,12 @@ std::size_t raw_protocol::encode(const RawMeasurement& measurement, std::uint8_t
   if (measurement.magnetic_field) writeVector(*measurement.magnetic_field, payload + 30);
   serial::writeUnsigned(serial::crc32(frame + 2, 2 + payload_bytes), payload + payload_bytes);
   return kPrefixBytes + payload_bytes + kCrcBytes;
+}
+
+bool raw_protocol::possible(const RawMeasurement& measurement) {
+  return within(measurement.angular_velocity, kMaxRate_rad_s) &&
+         within(measurement.linear_acceleration, kMaxAcceleration_m_s2) &&
+         (!measurement.magnetic_field || within(*measurement.magnetic_field, kMaxField_uT));
 }
 
 void RawParser::reset() {
@@ -120,7 +120,7 @@ std::optional<RawFrame> RawParser::takeFrame(std::size_t frame_bytes) {
   frame.last_byte = counters_.bytes - size_ + frame_bytes - 1;
   drop(frame_bytes);
   countLost(frame.measurement.sequence);
-  if (!possible(frame.measurement)) {
+  if (!raw_protocol::possible(frame.measurement)) {
     ++counters_.impossible;
     return std::nullopt;
   }

@@ -43,8 +43,9 @@ bool parse(int argc, char** argv, Options& options) {
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "", values)) return false;
   if (options.source.port.empty()) throw std::runtime_error("no --port given; see calibrate_imu --help");
-  if (options.source.protocol != "raw") {
-    throw std::runtime_error("only raw modules can be calibrated: the angle module does it itself");
+  if (options.source.protocol == "angles") {
+    throw std::runtime_error(
+        "only raw modules and phones can be calibrated: the angle module does it itself");
   }
   options.source.finish();
   return true;

@@ -1,7 +1,9 @@
 #include "tools/common/emulator_options.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <thread>
@@ -67,6 +69,13 @@ double EmulatorRun::elapsed_s() const {
 
 bool EmulatorRun::done() const {
   return stopped_by_signal != 0 || elapsed_s() > end_s_ + kLinger_s;
+}
+
+std::vector<char*> withoutRosArguments(int argc, char** argv) {
+  std::vector<char*> remaining;
+  std::copy_if(argv, argv + argc, std::back_inserter(remaining),
+               [](const char* argument) { return std::string(argument).find(":=") == std::string::npos; });
+  return remaining;
 }
 
 void sleepBriefly() {

@@ -2,6 +2,7 @@
 
 #include <boost/program_options.hpp>
 #include <string>
+#include <vector>
 
 #include "sensors/serial/emulation/emulated_adapter.h"
 
@@ -41,6 +42,10 @@ class EmulatorRun {
   double end_s_;
   double start_s_;
 };
+
+/// The arguments without those of roslaunch, `__name:=...` and the like, which an emulator that is no node
+/// does not use.
+std::vector<char*> withoutRosArguments(int argc, char** argv);
 
 /// Lets other programs run until something may be due.
 void sleepBriefly();

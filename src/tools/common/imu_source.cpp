@@ -16,8 +16,8 @@ volatile std::sig_atomic_t interrupted = 0;
 void ImuSource::addOptions(boost::program_options::options_description& options) {
   namespace po = boost::program_options;
   options.add_options()                                                                             //
-      ("port", po::value(&port), "serial port of the module")                                       //
-      ("protocol", po::value(&protocol)->default_value(protocol), "angles or raw")                  //
+      ("port", po::value(&port), "serial port of the module, or udp:PORT, udp:ADDRESS:PORT")        //
+      ("protocol", po::value(&protocol)->default_value(protocol), "angles, raw or phone")           //
       ("baud", po::value(&device.baud_rate)->default_value(device.baud_rate), "speed of the line")  //
       ("angle-order", po::value(&angle_order)->default_value(angle_order),
        "yaw_pitch_roll or roll_pitch_yaw");

@@ -41,10 +41,7 @@ void readMethod(const po::variables_map& values, EvaluateOptions& options) {
   options.config = ros_io::configFile(config);
 }
 
-}  // namespace
-
-std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
-  EvaluateOptions options;
+po::options_description describeOptions(EvaluateOptions& options) {
   po::options_description visible(helpHeading(
       "usage: evaluate BAG [options]",
       "Runs the odometry on a recording as fast as it can and measures it against ground truth."));
@@ -78,9 +75,19 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
       ("rolling-shutter-ms", po::value<double>(),
        "time from an image's first row to its last, instead of what the recording says; 0: global shutter. "
        "The stamps are taken as those of the middle row.")  //
+      ("planar", po::bool_switch(&options.on_floor),
+       "the robot drives on the plane of its start: height, roll and pitch are held there")  //
       ("no-imu", po::bool_switch(&options.no_imu),
        "the path of vision alone, as if the recording held no IMU")  //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
+  return visible;
+}
+
+}  // namespace
+
+std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
+  EvaluateOptions options;
+  const po::options_description visible = describeOptions(options);
   po::variables_map values;
   if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;
   if (values.count("bag") == 0) throw InputError("no BAG given; see evaluate --help");

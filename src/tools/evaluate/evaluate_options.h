@@ -25,7 +25,8 @@ struct EvaluateOptions {
   double truth_sigma_deg = 0.0;  ///< likewise of its attitudes
   std::string output;            ///< folder
   ros_io::RecordingOptions part;
-  bool no_imu = false;  ///< by vision alone, though the recording holds an IMU
+  bool on_floor = false;  ///< the base stays on the floor on which it starts
+  bool no_imu = false;    ///< by vision alone, though the recording holds an IMU
   int repeat = 1;
 };
 

@@ -80,18 +80,27 @@ Trajectory groundTruthOfBase(const EvaluateOptions& options, const ros_io::Recor
   return ofOtherBody(truth.trajectory, T_base_body.inverse());
 }
 
+PoseParams poseParams(const EvaluateOptions& options) {
+  PoseParams params;
+  params.floor.on = options.on_floor;
+  if (options.rig.empty()) return params;
+  const RigFile rig = RigFile::load(options.rig);
+  readParameters(rig.section(rig_sections::kUncertainty), rig.sectionName(rig_sections::kUncertainty),
+                 params.uncertainty);
+  return params;
+}
+
 /// One pass over the recording.
 class Run {
  public:
   Run(const ros_io::Recording& recording, const ros_io::StereoProcessing& processing,
       const odometry::OdometryConfig& config, const std::optional<std::string>& disparity_bag,
-      const Eigen::Isometry3d& T_base_camera, const estimation::UncertaintyParams& uncertainty,
-      const ImuMounting& imu)
+      const Eigen::Isometry3d& T_base_camera, const PoseParams& pose_params, const ImuMounting& imu)
       : recording_(recording),
         processing_(processing),
         config_(config),
         T_base_camera_(T_base_camera),
-        uncertainty_(uncertainty, T_base_camera),
+        uncertainty_(pose_params, T_base_camera),
         imu_problem_(imu.problem),
         odometry_(config_, processing.calibration(), {T_base_camera.linear(), imu.R_base_imu}),
         camera_order_(processing.calibration()) {
@@ -122,9 +131,10 @@ class Run {
     }
     record.time_s = pair.left_time_s;
     record.clock_offset_s = recording_.clockOffset_s(pair.left_time_s);
-    record.pose_covariance = uncertainty_.add(result, record.time_s);
+    const estimation::UncertainPose pose = uncertainty_.add(result, record.time_s);
+    record.pose_covariance = pose.covariance;
     if (result.state != odometry::State::kLost)
-      record.T_odom_base = basePose(T_base_camera_, result.T_start_camera);
+      record.T_odom_base = pose.T_odom_base;
     else
       record.reason = result.reason;
     // The thesis detects a new set in every frame, the default only where tracks are missing.
@@ -190,12 +200,7 @@ bool samePoses(const std::vector<eval::FrameRecord>& a, const std::vector<eval::
 EvaluationRun runEvaluation(const EvaluateOptions& options,
                             const std::function<void(std::size_t, std::size_t)>& progress) {
   const odometry::OdometryConfig config = odometry::loadOdometryConfig(options.config);
-  estimation::UncertaintyParams uncertainty;
-  if (!options.rig.empty()) {
-    const RigFile rig = RigFile::load(options.rig);
-    readParameters(rig.section(rig_sections::kUncertainty), rig.sectionName(rig_sections::kUncertainty),
-                   uncertainty);
-  }
+  const PoseParams pose_params = poseParams(options);
   ros_io::DisparityParams disparity;
   readParameters(loadYamlFile(options.disparity_config), options.disparity_config, disparity);
 
@@ -220,7 +225,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
 
   for (int repetition = 0; repetition < options.repeat;) {
-    Run pass(recording, processing, config, options.disparity_from, T_base_camera, uncertainty, imu);
+    Run pass(recording, processing, config, options.disparity_from, T_base_camera, pose_params, imu);
     std::vector<eval::FrameRecord> frames;
     recording.forEachPair([&](const ros_io::RawPair& pair) {
       frames.push_back(pass.handle(pair));

@@ -29,19 +29,18 @@ Trajectory truthOfBase(const EvaluateOptions& options, const ros_io::WheelRecord
 class Steps {
  public:
   Steps(const odometry::WheelOdometryParams& params, const odometry::WheelOdometry& odometry)
-      : errors_{params.scale_sigma, params.yaw_drift_sigma_rad_per_s},
-        reading_variance_m2_(odometry.readingVariance_m2()) {}
+      : scale_sigma_(params.scale_sigma), reading_variance_m2_(odometry.readingVariance_m2()) {}
 
   void add(const odometry::WheelStep& step) { steps_.push_back(step); }
 
   Matrix6d operator()(std::size_t from, std::size_t to) const {
-    odometry::PlanarCovariance covariance(reading_variance_m2_.size(), errors_);
+    odometry::PlanarCovariance covariance(reading_variance_m2_.size(), scale_sigma_);
     for (std::size_t i = from + 1; i <= to; ++i) covariance.append(steps_[i], reading_variance_m2_);
     return odometry::spatialCovariance(covariance.covariance());
   }
 
  private:
-  odometry::ConstantErrors errors_;
+  double scale_sigma_;
   std::vector<double> reading_variance_m2_;
   std::vector<odometry::WheelStep> steps_;  ///< one a reading, that of the first is empty
 };

@@ -41,8 +41,8 @@ constexpr const char* kUsage =
     "          not rectified with left.yaml and right.yaml (ROS), camchain.yaml (Kalibr), or "
     "intrinsics.yml and\n"
     "          extrinsics.yml (OpenCV)\n"
-    "  optiodom  DIR = a run, SET_run-NN.csv, with SET_metadata.csv beside it: pulses of three omni wheels and motion\n"
-    "          capture; time 0 becomes 1000 s; of the options --rig alone applies\n\n"
+    "  optiodom  DIR = a run, SET_run-NN.csv, with SET_metadata.csv beside it: pulses of three omni wheels (omni3)\n"
+    "          or of two on one axle (diff), and motion capture; time 0 becomes 1000 s; of the options --rig alone applies\n\n"
     "base_link is the IMU (the default for euroc and kitti_raw) or the left camera with x forward, y left, z up (REP-103;\n"
     "the default for the others). The ground truth gives poses of base_link.\n\nOptions";
 

@@ -23,9 +23,10 @@ struct WheelSequence {
 };
 
 /// OptiOdom: `SET_run-NN.csv` (a row each cycle: t s, x m, y m, theta rad, pulses that each wheel counted in
-/// the cycle) and beside it `SET_metadata.csv` (drive, gear, encoder, dimensions). Of its drives `omni3` is
-/// known: three omni wheels at -60, 60 and 180 degrees whose pulses count clockwise. Times count from
-/// kStartTime_s. Throws InputError.
+/// the cycle) and beside it `SET_metadata.csv` (drive, gear, encoder, dimensions). Of its drives two
+/// are known: `omni3`, three omni wheels at -60, 60 and 180 degrees whose pulses count clockwise, and `diff`,
+/// a right and a left wheel. `omni4` and `tricyc` are refused by name. Times count from kStartTime_s. Throws
+/// InputError.
 WheelSequence readOptiodom(const std::string& run_file);
 
 /// Writes `wheel_ticks` and `ground_truth/odom` (pose of base_link in `world`; twist not given, zero). Equal

@@ -1,9 +1,11 @@
-// Behaves like a serial IMU module, with the faults of cables and adapters, on a pseudo-terminal.
+// Behaves like an IMU module, with the faults of cables and adapters on a pseudo-terminal, or with those of a
+// network.
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
 
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "sensors/imu/module_angles.h"
 #include "sensors/serial/emulation/emulated_adapter.h"
@@ -23,14 +25,18 @@ class Emulator {
       : options_(std::move(options)),
         run_(options_.run),
         module_(options_.protocol, options_.order, options_.magnetometer, options_.errors,
-                options_.run.adapter.seed),
-        adapter_(options_.run.adapter) {
+                options_.run.adapter.seed) {
     if (!options_.run.log.empty()) {
       log_.open(options_.run.log);
       log_.precision(17);
       log_ << "# steady time (s), yaw (deg), pitch (deg), roll (deg)\n";
     }
-    run_.start(adapter_);
+    if (options_.udp) {
+      datagrams_.emplace(*options_.udp);
+    } else {
+      adapter_.emplace(options_.run.adapter);
+      run_.start(*adapter_);
+    }
   }
 
   bool done() const { return run_.done(); }
@@ -46,21 +52,28 @@ class Emulator {
 
   void send(const imu::MotionState& state, double time_s) {
     if (options_.run.pause.contains(time_s)) return;
-    if (adapter_.backlog_s(run_.start_s() + time_s) > kMaxBacklog_s) {
+    const double at_s = run_.start_s() + time_s;
+    if (adapter_ && adapter_->backlog_s(at_s) > kMaxBacklog_s) {
       ++left_out_;
       return;
     }
-    adapter_.send(module_.frame(state, time_s), run_.start_s() + time_s);
+    const auto frame = module_.frame(state, time_s);
+    if (adapter_) adapter_->send(frame, at_s);
+    if (datagrams_ && !options_.run.adapter.unplug.contains(time_s)) datagrams_->send(frame);
     ++sent_;
     if (log_.is_open()) writeLog(state, time_s);
   }
 
-  void handOver() { adapter_.handOver(serial::steadyNow_s()); }
+  void handOver() {
+    if (adapter_) adapter_->handOver(serial::steadyNow_s());
+  }
 
   void printCounts() const {
     std::cout << "sent " << sent_ << " frames";
     if (left_out_ > 0) std::cout << ", left out " << left_out_ << ": the line is too slow for this rate";
-    if (adapter_.overrun() > 0) std::cout << ", " << adapter_.overrun() << " bytes lost: nobody read them";
+    if (adapter_ && adapter_->overrun() > 0) {
+      std::cout << ", " << adapter_->overrun() << " bytes lost: nobody read them";
+    }
     std::cout << std::endl;
   }
 
@@ -76,7 +89,8 @@ class Emulator {
   EmulatorOptions options_;
   EmulatorRun run_;
   imu::EmulatedModule module_;
-  serial::EmulatedAdapter adapter_;
+  std::optional<serial::EmulatedAdapter> adapter_;
+  std::optional<imu::DatagramLine> datagrams_;  ///< one of the two
   std::ofstream log_;
   double frame_time_s_ = 0.0;
   std::uint64_t frame_number_ = 0, sent_ = 0, left_out_ = 0;

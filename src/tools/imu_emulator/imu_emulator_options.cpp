@@ -84,9 +84,9 @@ po::options_description describeOptions(EmulatorOptions& o) {
   po::options_description visible(helpHeading(
       "usage: imu_emulator [options]",
       "Behaves like a serial IMU module on a USB adapter, on a pseudo-terminal whose path it prints."));
-  visible.add_options()                                                                 //
-      ("help,h", "this text")                                                           //
-      ("protocol", po::value<std::string>()->default_value("angles"), "angles or raw")  //
+  visible.add_options()                                                                        //
+      ("help,h", "this text")                                                                  //
+      ("protocol", po::value<std::string>()->default_value("angles"), "angles, raw or phone")  //
       ("angle-order", po::value<std::string>()->default_value("yaw_pitch_roll"),
        "yaw_pitch_roll or roll_pitch_yaw")                                                     //
       ("magnetometer", po::bool_switch(&o.magnetometer), "raw: send the magnetic field, too")  //
@@ -113,6 +113,13 @@ po::options_description describeOptions(EmulatorOptions& o) {
       ("accelerometer-noise", po::value(&o.errors.accelerometer_noise_m_s2)->default_value(0.0),
        "standard deviation, m/s^2");
   o.run.addOptions(visible);
+  visible.add_options()  //
+      ("udp", po::value<std::string>(),
+       "udp:ADDRESS:PORT or udp:PORT of this computer: send datagrams there instead; of the faults there are --corrupt, "
+       "--drop (share of datagrams) and the next two")  //
+      ("overtaken", po::value<double>()->default_value(0.0),
+       "share of datagrams that arrive behind their successor")  //
+      ("doubled", po::value<double>()->default_value(0.0), "share of datagrams that arrive twice");
   return visible;
 }
 
@@ -120,6 +127,19 @@ Eigen::Vector3d vectorOf(const po::variables_map& values, const std::string& opt
   const auto& numbers = values[option].as<std::vector<double>>();
   if (numbers.size() != 3) throw std::runtime_error("--" + option + " takes three numbers: x y z");
   return {numbers[0], numbers[1], numbers[2]};
+}
+
+imu::DatagramOptions datagramsOf(const po::variables_map& values, const serial::AdapterOptions& faults) {
+  const auto target = imu::parseUdpAddress(values["udp"].as<std::string>());
+  if (!target) throw std::runtime_error("--udp takes udp:PORT or udp:ADDRESS:PORT");
+  imu::DatagramOptions options;
+  options.target = *target;
+  options.drop_probability = faults.drop_probability;
+  options.corrupt_probability = faults.corrupt_probability;
+  options.overtake_probability = values["overtaken"].as<double>();
+  options.double_probability = values["doubled"].as<double>();
+  options.seed = faults.seed;
+  return options;
 }
 
 }  // namespace
@@ -139,9 +159,9 @@ std::optional<EmulatorOptions> parseEmulatorOptions(int argc, char** argv) {
     std::cout << visible << "\n";
     return std::nullopt;
   }
-  options.protocol =
-      choice<imu::Protocol>("protocol", values["protocol"].as<std::string>(),
-                            {{"angles", imu::Protocol::kAngles}, {"raw", imu::Protocol::kRaw}});
+  options.protocol = choice<imu::Protocol>(
+      "protocol", values["protocol"].as<std::string>(),
+      {{"angles", imu::Protocol::kAngles}, {"raw", imu::Protocol::kRaw}, {"phone", imu::Protocol::kPhone}});
   options.order = choice<imu::AngleOrder>("angle-order", values["angle-order"].as<std::string>(),
                                           {{"yaw_pitch_roll", imu::AngleOrder::kYawPitchRoll},
                                            {"roll_pitch_yaw", imu::AngleOrder::kRollPitchYaw}});
@@ -150,6 +170,10 @@ std::optional<EmulatorOptions> parseEmulatorOptions(int argc, char** argv) {
   options.errors.accelerometer_gain = vectorOf(values, "accelerometer-gain");
   if (!(options.rate_hz > 0.0)) throw std::runtime_error("--rate must be above 0");
   options.run.check();
+  if (values.count("udp") != 0) options.udp = datagramsOf(values, options.run.adapter);
+  if (options.protocol == imu::Protocol::kPhone && !options.udp) {
+    throw std::runtime_error("a phone sends UDP: --udp udp:5555 says where to");
+  }
   if (options.follow_topic.empty()) options.motion = motionOf(values);
   return options;
 }

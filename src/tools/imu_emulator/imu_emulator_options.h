@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "sensors/imu/emulation/datagram_line.h"
 #include "sensors/imu/emulation/emulated_module.h"
 #include "sensors/imu/emulation/motion.h"
 #include "tools/common/emulator_options.h"
@@ -18,6 +19,7 @@ struct EmulatorOptions {
   imu::Motion motion;
   imu::ModuleErrors errors;
   EmulatorRunOptions run;
+  std::optional<imu::DatagramOptions> udp;  ///< nothing: a serial port
 };
 
 /// Nothing when only help was asked for. Throws std::runtime_error (one line: what, why, what to do).

@@ -8,6 +8,8 @@
 #include "kinematics/drive_params.h"
 #include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
+#include "nodes/laser_bridge/laser_bridge_params.h"
+#include "nodes/range_bridge/range_bridge_params.h"
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "nodes/simulator/simulator_node.h"
@@ -59,7 +61,8 @@ void printHeading(const std::string& title, const std::string& text = "") {
 void printSensors() {
   printHeading(
       "## The rig file",
-      "Sections `cameras` (as `stereo_capture`), `imu` (as `imu_bridge`), `disparity` (as "
+      "Sections `cameras` (as `stereo_capture`), `imu` (as `imu_bridge`), `laser` (as `laser_bridge`), "
+      "`range_finders` (as `range_bridge`), `disparity` (as "
       "`stereo_image_proc/disparity`), `wheel_odometry` (as `wheel_odometry`, without its own), `uncertainty` (as "
       "`visual_odometry`), `base` (as `base_bridge`), all below, and `mounting`: where the sensors sit in "
       "`base_link`.");
@@ -77,6 +80,13 @@ void printSensors() {
   printTable(ros_io::StereoCaptureParams());
   printHeading("## `imu_bridge`");
   printTable(ros_io::ImuBridgeParams());
+  printHeading("## `laser_bridge`", "`config/laser.yaml`, and section `laser` of the rig file.");
+  printTable(nodes::LaserBridgeParams());
+  printHeading(
+      "## `range_bridge`",
+      "`config/ranges.yaml`, and section `range_finders` of the rig file: `by_id_directory`, `finders`, how many there "
+      "are, and for each of them a section `finder_1`, `finder_2`, ... as here.");
+  printTable(nodes::RangeFinderParams());
   printHeading("## `stereo_image_proc/disparity`",
                "`config/disparity.yaml`, also read by `evaluate`. All of them can be changed live by the "
                "nodelet's own dynamic_reconfigure.");

@@ -22,6 +22,21 @@ TEST(AtomicFile, leavesNothingWithoutCommit) {
   const TemporaryFolder folder;
   { const AtomicFile file(folder / "result.txt"); }
   EXPECT_EQ(folder.countFiles(), 0u);
+  { const AtomicFile file(folder / "deep/er/result.txt"); }
+  EXPECT_FALSE(std::filesystem::exists(folder / "deep"));
+}
+
+TEST(AtomicFile, leavesFoldersThatOthersUse) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "there");
+  { const AtomicFile file(folder / "there/result.txt"); }
+  EXPECT_TRUE(std::filesystem::exists(folder / "there"));
+  {
+    const AtomicFile file(folder / "new/er/result.txt");
+    folder.write("new/of_another.txt", "");
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "new/of_another.txt"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "new/er"));
 }
 
 TEST(AtomicFile, replacesAnOlderFile) {

@@ -135,6 +135,30 @@ TEST(BaseOdometry, SetPoseMovesTheFrameAndMotionGoesOn) {
   EXPECT_GT(estimate.pose_covariance(0, 0), 1.0);
 }
 
+TEST(BaseOdometry, OnAFloorHeightAndTiltDoNotDrift) {
+  BaseOdometry odometry(UncertaintyParams{}, baseToCamera());
+  FloorParams floor;
+  floor.on = true;
+  odometry.setFloor(floor);
+  odometry.start(planar(1.0, 2.0, 0.5), Matrix6d::Zero());
+  odometry.setPose(Eigen::Translation3d(0.0, 0.0, 0.4) * planar(1.0, 2.0, 0.5), Matrix6d::Zero());
+  Eigen::Isometry3d T_start_base = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d climbing = planar(0.1, 0.0, 0.0);  // by a pitch that is 0.001 deg wrong in each frame
+  climbing.linear() = Eigen::AngleAxisd(-0.001 * M_PI / 180.0, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  for (int frame = 0; frame < 300; ++frame) {
+    odometry::FrameResult result =
+        resultFor(T_start_base, frame == 0 ? Eigen::Isometry3d::Identity() : climbing);
+    result.motion_covariance = 1e-7 * Matrix6d::Identity();
+    odometry.update(result, 0.1 * frame);
+    T_start_base = T_start_base * climbing;
+  }
+  EXPECT_GT(T_start_base.translation().z(), 0.07);
+  const BaseEstimate& estimate = odometry.estimate();
+  EXPECT_NEAR(estimate.T_odom_base.translation().z(), 0.4, 0.002) << "the floor is where the pose was set";
+  EXPECT_LT(std::acos(estimate.T_odom_base.linear()(2, 2)), 0.005);
+  EXPECT_LT(std::sqrt(estimate.pose_covariance(2, 2)), 0.0051);
+}
+
 TEST(Levelling, FromAttitudeAndFromAcceleration) {
   const Eigen::Matrix3d R_world_base =
       (Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(-0.2, Eigen::Vector3d::UnitX()))

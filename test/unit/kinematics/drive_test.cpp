@@ -63,6 +63,27 @@ TEST(Drive, mecanumIsThePublishedFormula) {
         << i;
 }
 
+TEST(Drive, mecanumForwardIsThePublishedFormula) {
+  const double lx = 0.15, ly = 0.12, w[] = {0.9, 0.4, 0.7, 0.3};
+  const ForwardResult result =
+      Drive(mecanumDrive(lx, ly, 0.05)).forward({{w[0], 0.0}, {w[1], 0.0}, {w[2], 0.0}, {w[3], 0.0}});
+  EXPECT_NEAR(result.twist.x(), (w[0] + w[1] + w[2] + w[3]) / 4.0, 1e-12);
+  EXPECT_NEAR(result.twist.y(), (-w[0] + w[1] + w[2] - w[3]) / 4.0, 1e-12);
+  EXPECT_NEAR(result.twist.z(), (-w[0] + w[1] - w[2] + w[3]) / (4.0 * (lx + ly)), 1e-12);
+}
+
+/// dx = (L + R) / 2, dth = (R - L) / trackwidth, dy = C - (R - L) forward_offset / trackwidth.
+TEST(Drive, deadWheelsAreThePublishedFormula) {
+  const double width = 0.5377, offset = 0.2745, left = 0.31, right = 0.42, across = 0.17;
+  DriveParams params = deadWheels(width, offset, 0.0296028);
+  const Twist twist = Drive(params).forward({{left, 0.0}, {right, 0.0}, {across, 0.0}}).twist;
+  EXPECT_NEAR(twist.x(), (left + right) / 2.0, 1e-12);
+  EXPECT_NEAR(twist.y(), across - (right - left) * offset / width, 1e-12);
+  EXPECT_NEAR(twist.z(), (right - left) / width, 1e-12);
+  params.wheels[0].pulses_per_turn = 800.0;
+  EXPECT_NEAR(1e3 * params.wheels[0].metresPerPulse(), 0.2325, 1e-4) << "mm a pulse";
+}
+
 TEST(Drive, forwardAfterInverse) {
   for (const auto& [name, params] : holonomicDrives()) {
     const Drive drive(params);

@@ -36,6 +36,7 @@ double skewOfAMetre(double period_s, bool discretised) {
 TEST(AlongArc, keepsATurningRobotOnItsLine) {
   EXPECT_NEAR(skewOfAMetre(0.010, false), 0.0157, 1e-4);
   EXPECT_NEAR(skewOfAMetre(0.020, false), 0.0314, 1e-4);
+  EXPECT_NEAR(skewOfAMetre(0.050, false), 0.079, 1e-3);
   EXPECT_LT(skewOfAMetre(0.020, true), 1e-3);
   EXPECT_LT(skewOfAMetre(0.050, true), 1e-3);
 }

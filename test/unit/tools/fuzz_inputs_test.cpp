@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "fuzz/device_fuzz.h"
 #include "fuzz/input_fuzz.h"
 
 namespace stereo_nav::tools {
@@ -16,7 +17,8 @@ namespace {
 class FuzzInputs : public ::testing::TestWithParam<const char*> {};
 
 void readBytes(const std::string& kind, const std::string& bytes) {
-  readFuzzInput(kind, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  if (!decodeFuzzInput(kind, data, bytes.size())) readFuzzInput(kind, data, bytes.size());
 }
 
 TEST_P(FuzzInputs, AreReadOrRefused) {
@@ -42,7 +44,8 @@ TEST_P(FuzzInputs, AreReadOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Corpus, FuzzInputs,
                          ::testing::Values("ros", "opencv", "kalibr", "kitti", "euroc", "rig", "times",
-                                           "lists", "names", "bag", "base"),
+                                           "lists", "names", "bag", "angles", "raw", "raw_udp", "phone",
+                                           "laser", "tfmini", "base"),
                          [](const auto& kind) { return std::string(kind.param); });
 
 }  // namespace

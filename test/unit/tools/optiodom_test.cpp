@@ -45,6 +45,19 @@ TEST(Optiodom, becomesABagAndARig) {
   EXPECT_EQ(drive.wheels[2].direction_deg, 90.0);
 }
 
+TEST(Optiodom, aDifferentialDriveHasItsRightWheelFirst) {
+  const TemporaryFolder folder;
+  folder.write("1_metadata.csv", "type,diff,\nngear,43.7,\nencRes,64,\nLi,0.2,\nDi,0.084,0.086\n");
+  folder.write("1_run-01.csv", "0,0,0,0,0,0\n0.1,0,0,0.1,20,10\n");
+  const WheelSequence sequence = readOptiodom(folder / "1_run-01.csv");
+  ASSERT_EQ(sequence.drive.wheels.size(), 2u);
+  EXPECT_EQ(sequence.drive.wheels[0].name, "right");
+  EXPECT_EQ(sequence.drive.wheels[0].y_m, -0.1);
+  EXPECT_EQ(sequence.drive.wheels[1].radius_m, 0.043);
+  EXPECT_NEAR(sequence.drive.wheels[0].pulses_per_turn, 2796.8, 1e-9);
+  EXPECT_EQ(sequence.readings[1].pulses, (std::vector<std::int64_t>{20, 10}));
+}
+
 TEST(Optiodom, whatCannotBeUsedIsNamed) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& run) {

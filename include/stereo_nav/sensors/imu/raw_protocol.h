@@ -57,6 +57,9 @@ constexpr std::size_t kMaxFrameBytes =
 
 /// Writes a frame (at most kMaxFrameBytes) and returns its length.
 std::size_t encode(const RawMeasurement& measurement, std::uint8_t* frame);
+/// Whether a module of this class can measure these values: finite, up to 4000 deg/s, 32 g, 100 times the
+/// earth's field.
+bool possible(const RawMeasurement& measurement);
 }  // namespace raw_protocol
 
 /// Finds raw frames in a byte stream. After damage it continues the search at the byte behind the false

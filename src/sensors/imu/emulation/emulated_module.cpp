@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/angles.h"
+#include "sensors/imu/phone_protocol.h"
 
 namespace stereo_nav::imu {
 namespace {
@@ -17,7 +18,8 @@ double quantised(double value, double resolution) {
 }  // namespace
 
 std::vector<std::uint8_t> EmulatedModule::frame(const MotionState& state, double time_s) {
-  return protocol_ == Protocol::kAngles ? angleFrame(state, time_s) : rawFrame(state, time_s);
+  if (protocol_ == Protocol::kAngles) return angleFrame(state, time_s);
+  return protocol_ == Protocol::kRaw ? rawFrame(state, time_s) : phoneFrame(state, time_s);
 }
 
 std::vector<std::uint8_t> EmulatedModule::angleFrame(const MotionState& state, double time_s) {
@@ -32,7 +34,7 @@ std::vector<std::uint8_t> EmulatedModule::angleFrame(const MotionState& state, d
   return bytes;
 }
 
-std::vector<std::uint8_t> EmulatedModule::rawFrame(const MotionState& state, double time_s) {
+RawMeasurement EmulatedModule::measure(const MotionState& state, double time_s) {
   RawMeasurement measured;
   measured.sequence = sequence_++;
   measured.device_time_us =
@@ -42,9 +44,19 @@ std::vector<std::uint8_t> EmulatedModule::rawFrame(const MotionState& state, dou
   measured.linear_acceleration = state.linear_acceleration.cwiseProduct(errors_.accelerometer_gain) +
                                  errors_.accelerometer_offset + noiseVector(errors_.accelerometer_noise_m_s2);
   if (magnetometer_) measured.magnetic_field = state.q_world_imu.conjugate() * kField_uT;
+  return measured;
+}
+
+std::vector<std::uint8_t> EmulatedModule::rawFrame(const MotionState& state, double time_s) {
   std::vector<std::uint8_t> bytes(raw_protocol::kMaxFrameBytes);
-  bytes.resize(raw_protocol::encode(measured, bytes.data()));
+  bytes.resize(raw_protocol::encode(measure(state, time_s), bytes.data()));
   return bytes;
+}
+
+std::vector<std::uint8_t> EmulatedModule::phoneFrame(const MotionState& state, double time_s) {
+  constexpr double kSwitchedOn_s = 4321.0;  // before the stream began
+  const std::string text = phoneText({kSwitchedOn_s + time_s, measure(state, time_s)});
+  return {text.begin(), text.end()};
 }
 
 double EmulatedModule::noise(double stddev) {

@@ -35,7 +35,9 @@ class EmulatedModule {
 
  private:
   std::vector<std::uint8_t> angleFrame(const MotionState& state, double time_s);
+  RawMeasurement measure(const MotionState& state, double time_s);
   std::vector<std::uint8_t> rawFrame(const MotionState& state, double time_s);
+  std::vector<std::uint8_t> phoneFrame(const MotionState& state, double time_s);
   double noise(double stddev);
   Eigen::Vector3d noiseVector(double stddev);
 

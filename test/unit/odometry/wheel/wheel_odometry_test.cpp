@@ -39,11 +39,13 @@ double worstWhileSpinning(double period_s, bool as_published) {
 TEST(WheelOdometry, straightWhileSpinning) {
   EXPECT_LT(worstWhileSpinning(0.010, false), 2.0);
   EXPECT_LT(worstWhileSpinning(0.020, false), 4.0);
+  EXPECT_LT(worstWhileSpinning(0.050, false), 22.0);
 }
 
 TEST(WheelOdometry, asPublishedIsOffByHalfTheTurnOfAnInterval) {
   EXPECT_NEAR(worstWhileSpinning(0.010, true), 157.0, 3.0);
   EXPECT_NEAR(worstWhileSpinning(0.020, true), 314.0, 3.0);
+  EXPECT_NEAR(worstWhileSpinning(0.050, true), 785.0, 8.0);
 }
 
 TEST(WheelOdometry, followsEveryDrive) {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "sensors/laser/laser_device.h"
+#include "stereo_nav/core/parameter_visitor.h"
+
+namespace stereo_nav::nodes {
+
+/// Parameters of the laser_bridge node. Those of the device are among them, without a section.
+struct LaserBridgeParams {
+  std::string port = "/dev/ttyUSB0";
+  std::string by_id_directory = "/dev/serial/by-id";
+  std::string frame_id = "laser_link";
+  laser::LaserDeviceParams device;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+}  // namespace stereo_nav::nodes
