@@ -52,7 +52,10 @@ ColdStartCounts& ColdStartCounts::operator+=(const ColdStartCounts& other) {
 }
 
 ColdStart::ColdStart(int number)
-    : number_(number), kind_(static_cast<Kind>(number % kKinds)), has_imu_(number / kKinds % 2 == 0), is_bare_(number / kKinds % 4 >= 2) {
+    : number_(number),
+      kind_(static_cast<Kind>(number % kKinds)),
+      has_imu_(number / kKinds % 2 == 0),
+      is_bare_(number / kKinds % 4 >= 2 && kind_ != Kind::kCovered) {
   sim::RandomStream random(sim::streamKey(static_cast<std::uint64_t>(number), 71));
   const double sign = random.uniform(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
   switch (kind_) {
@@ -152,24 +155,24 @@ cv::Mat ColdStart::image(const sim::Renderer& renderer, bool is_right, int frame
   if (is_right) T_base_optical.translate(Eigen::Vector3d(baseline_m_, 0.0, 0.0));
   const auto path = [&](double time_s) { return Eigen::Isometry3d(basePose(time_s) * T_base_optical); };
   cv::Mat light = renderer.render(path, {kPeriod_s * frame, exposure_s_, 0.0});
-  if (kind_ == Kind::kCovered) cover(frame, light);
+  if (kind_ == Kind::kCovered) cover(is_right, frame, light);
   sim::SensorParams sensor;
   sensor.read_noise = 2.0;
   const auto key = sim::streamKey(static_cast<std::uint64_t>(number_), frame, is_right ? 1 : 0);
   return sim::ImageSensor(kWidth, kHeight, sensor, sim::CameraResponse()).expose(light, key);
 }
 
-void ColdStart::cover(int frame, cv::Mat& light) const {
-  // A hand before the lenses, half of the view wide, that wavers; what it shows has texture, too.
-  cv::Mat hand(kHeight, kWidth / 2, CV_32FC1);
-  cv::RNG random(static_cast<std::uint64_t>(number_) + 1);
-  random.fill(hand, cv::RNG::NORMAL, 60.0, 120.0);
-  cv::GaussianBlur(hand, hand, {0, 0}, 4.0);
-  const double phase = 0.7 * number_;
-  const int wander_px = static_cast<int>(20.0 * std::sin(4.0 * kPeriod_s * frame + phase));
-  const int left_px = (number_ / kKinds % 4 < 2 ? 0 : kWidth / 2) + wander_px;
-  const cv::Rect visible = cv::Rect(left_px, 0, hand.cols, hand.rows) & cv::Rect({0, 0}, light.size());
-  hand(visible - cv::Point(left_px, 0)).copyTo(light(visible));
+void ColdStart::cover(bool is_right, int frame, cv::Mat& light) const {
+  // A hand before the lenses, half of the view wide, that wavers: dark, and so near that its edge is a blur.
+  constexpr double kDisparity_px = 60.0, kBlur_px = 12.0;
+  const bool covers_left = number_ / kKinds % 4 < 2;
+  const double wander_px = 20.0 * std::sin(4.0 * kPeriod_s * frame + 0.7 * number_);
+  const double edge_px = 0.5 * kWidth + wander_px - (is_right ? kDisparity_px : 0.0);
+  for (int x = 0; x < kWidth; ++x) {
+    const double behind_px = covers_left ? edge_px - x : x - edge_px;
+    const double opacity = std::clamp(0.5 + behind_px / (2.0 * kBlur_px), 0.0, 1.0);
+    light.col(x) = light.col(x) * (1.0 - opacity) + 30.0 * opacity;
+  }
 }
 
 std::vector<ImuSample> ColdStart::imu(double from_s, double to_s) const {
@@ -195,7 +198,8 @@ ColdStartCounts ColdStart::run() const {
   const sim::Scene scene(this->scene());
   const sim::Renderer renderer(scene, camera(), 4);
   const Eigen::Isometry3d T_base_camera = baseToCamera();
-  odometry::WatchedOdometry odometry({}, calibration(), {T_base_camera.linear(), Eigen::Matrix3d::Identity()});
+  odometry::WatchedOdometry odometry({}, calibration(),
+                                     {T_base_camera.linear(), Eigen::Matrix3d::Identity()});
   estimation::BaseOdometry base({}, T_base_camera);
   const double inside = std::sqrt(chiSquareQuantile(6, 0.9973));
   ColdStartCounts counts;
@@ -208,14 +212,17 @@ ColdStartCounts ColdStart::run() const {
     frame.left = image(renderer, false, i);
     frame.right = image(renderer, true, i);
     if (has_imu_) {
-      for (const ImuSample& sample : imu(kPeriod_s * (i - 1) + 0.5 * kImuPeriod_s, kPeriod_s * i + kImuPeriod_s))
+      for (const ImuSample& sample :
+           imu(kPeriod_s * (i - 1) + 0.5 * kImuPeriod_s, kPeriod_s * i + kImuPeriod_s))
         odometry.addImu(sample);
     }
     const odometry::FrameResult result = odometry.process(frame);
     const estimation::BaseEstimate estimate = base.update(result, frame.left_time_s);
     const Eigen::Isometry3d truth = basePose(frame.left_time_s);
     ++counts.frames;
-    path_m += (basePose(frame.left_time_s).translation() - basePose(kPeriod_s * std::max(0, i - 1)).translation()).norm();
+    path_m +=
+        (basePose(frame.left_time_s).translation() - basePose(kPeriod_s * std::max(0, i - 1)).translation())
+            .norm();
     if (result.keyframe && result.state != odometry::State::kTracking) {
       T_odom_map = estimate.T_odom_base;
       truth_of_map = truth;

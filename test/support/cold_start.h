@@ -13,11 +13,11 @@ namespace stereo_nav::test {
 struct ColdStartCounts {
   int frames = 0;
   int tracking = 0;
-  int outside = 0;    ///< of those: error of the pose outside the 99.73 % ellipsoid of the published covariance
-  int beyond = 0;     ///< of those: at a Mahalanobis distance beyond 6
-  int wrong = 0;      ///< of those: by more than the larger of 5 cm and 2 % of the path since the map began
-  int begun = 0;      ///< 1 where any frame is TRACKING
-  double worst = 0.0; ///< largest Mahalanobis distance while TRACKING
+  int outside = 0;  ///< of those: error of the pose outside the 99.73 % ellipsoid of the published covariance
+  int beyond = 0;   ///< of those: at a Mahalanobis distance beyond 6
+  int wrong = 0;    ///< of those: by more than the larger of 5 cm and 2 % of the path since the map began
+  int begun = 0;    ///< 1 where any frame is TRACKING
+  double worst = 0.0;  ///< largest Mahalanobis distance while TRACKING
 
   ColdStartCounts& operator+=(const ColdStartCounts& other);
 };
@@ -48,7 +48,7 @@ class ColdStart {
   sim::CameraCalibration camera() const;
   vision::StereoCalibration calibration() const;
   cv::Mat image(const sim::Renderer& renderer, bool is_right, int frame) const;
-  void cover(int frame, cv::Mat& light) const;
+  void cover(bool is_right, int frame, cv::Mat& light) const;
   std::vector<ImuSample> imu(double from_s, double to_s) const;
 
   int number_;
