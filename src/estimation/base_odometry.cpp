@@ -12,7 +12,7 @@ BaseOdometry::BaseOdometry(const UncertaintyParams& params, const Eigen::Isometr
 void BaseOdometry::start(const Eigen::Isometry3d& T_odom_base, const Matrix6d& pose_covariance) {
   T_start_base_.setIdentity();
   previous_time_s_.reset();
-  previous_lost_ = false;
+  previous_measured_ = true;
   setPose(T_odom_base, pose_covariance);
   estimate_.twist.setZero();
   estimate_.twist_covariance = covariance_.unknownTwist();
@@ -35,15 +35,16 @@ const BaseEstimate& BaseOdometry::update(const odometry::FrameResult& result, do
   estimate_.T_odom_base = pose.T_odom_base;
   estimate_.pose_covariance = pose.covariance;
   previous_time_s_ = time_s;
-  previous_lost_ = result.state == odometry::State::kLost;
+  previous_measured_ = odometry::isMeasured(result.state) || result.new_map;
   return estimate_;
 }
 
 void BaseOdometry::setTwist(const odometry::FrameResult& result, double interval_s) {
   const Eigen::Isometry3d T_previous_base = basePose(T_base_camera_, result.T_previous_current);
   const Matrix6d covariance = covariance_.addMotion(result, T_previous_base, interval_s);
-  // After lost frames the motion may span more than the last interval: its speed is unknown.
-  const bool is_known = result.state != odometry::State::kLost && !previous_lost_;
+  // After frames without a measurement the motion may span more than the last interval: its speed is unknown.
+  const bool is_known = result.state == odometry::State::kCoasting ||
+                        (result.state == odometry::State::kTracking && previous_measured_);
   estimate_.twist = is_known ? Vector6d(logMotion(T_previous_base) / interval_s) : Vector6d::Zero();
   estimate_.twist_covariance =
       is_known ? Matrix6d(covariance / (interval_s * interval_s)) : covariance_.unknownTwist();

@@ -1,5 +1,8 @@
 #include "stereo_nav/estimation/odom_covariance.h"
 
+#include <cmath>
+#include <utility>
+
 namespace stereo_nav::estimation {
 namespace {
 
@@ -19,6 +22,14 @@ Matrix6d diagonal(double translation_sigma, double rotation_sigma) {
   return variances.asDiagonal();
 }
 
+/// Of each of the two kinds the faster one.
+Vector6d larger(const Vector6d& a, const Vector6d& b) {
+  Vector6d result;
+  result << (a.head<3>().norm() > b.head<3>().norm() ? a : b).head<3>(),
+      (a.tail<3>().norm() > b.tail<3>().norm() ? a : b).tail<3>();
+  return result;
+}
+
 }  // namespace
 
 void UncertaintyParams::describe(ParameterVisitor& visitor) {
@@ -33,10 +44,13 @@ void UncertaintyParams::describe(ParameterVisitor& visitor) {
                "standard deviation of the focal length, as a share of it", Change::kLive);
   visitor.real("mounting_sigma_rad", mounting_sigma_rad, {0.0, 1.0}, "rad",
                "standard deviation of the left camera's mounting about each axis", Change::kLive);
-  visitor.real("lost_speed_m_s", lost_speed_m_s, {0.01, 100.0}, "m/s",
-               "standard deviation of the velocity while no motion is measured", Change::kLive);
+  visitor.real(
+      "lost_speed_m_s", lost_speed_m_s, {0.01, 100.0}, "m/s",
+      "standard deviation of the velocity of a robot at rest that is lost; a moving one has that of its "
+      "last velocity besides",
+      Change::kLive);
   visitor.real("lost_turn_rate_rad_s", lost_turn_rate_rad_s, {0.01, 100.0}, "rad/s",
-               "standard deviation of the turn rate while no motion is measured", Change::kLive);
+               "likewise of the turn rate, where no IMU measures it", Change::kLive);
 }
 
 OdomCovariance::OdomCovariance(const UncertaintyParams& params, const Eigen::Isometry3d& T_base_camera)
@@ -48,40 +62,94 @@ Matrix6d OdomCovariance::start(const Eigen::Matrix3d& R_odom_base, const Matrix6
   accumulated_ = turned(R_odom_base.transpose(), at_least) + inBase(pose_noise);
   noise_.setZero();
   effects_.setZero();
-  lost_for_s_ = 0.0;
+  last_twist_.setZero();
+  gap_ = Gap();
   return pose(R_odom_base);
 }
 
 Matrix6d OdomCovariance::addMotion(const odometry::FrameResult& result,
                                    const Eigen::Isometry3d& T_previous_base, double interval_s) {
-  if (result.state == odometry::State::kLost || !result.motion_covariance.allFinite()) {
-    const Matrix6d before = gap();
-    lost_for_s_ += interval_s;
-    const Matrix6d covariance = gap() - before;
-    if (result.keyframe) {  // a new map: how far the rig has moved meanwhile will never be known
-      accumulated_ += gap();
-      lost_for_s_ = 0.0;
-    }
-    return covariance;
+  if (!odometry::isMeasured(result.state) || result.new_map || !result.motion_covariance.allFinite())
+    return addGap(result, T_previous_base, interval_s);
+  const Motion motion = motionOf(result, T_previous_base);
+  if (result.state == odometry::State::kInitialising) {
+    gap_.unconfirmed.push_back(motion);
+    gap_.unconfirmed_for_s += interval_s;
+    return interval_s * interval_s * unknownTwist();
   }
-  const Effects effect = effects(result);
-  const double bent_px = params_.distortion_sigma_px;
-  const Matrix6d motion = inBase(result.motion_covariance + bent_px * bent_px * result.covariance_per_px2);
+  const bool follows = gap_.predicted_for_s + gap_.unknown_for_s == 0.0 || gap_.new_map;
+  if (follows)
+    last_twist_ = gap_.new_map ? larger(last_twist_, logMotion(T_previous_base) / interval_s)
+                               : Vector6d(logMotion(T_previous_base) / interval_s);
+  if (gap_.new_map) keepGap();
+  for (const Motion& earlier : gap_.unconfirmed) add(earlier);
+  gap_ = Gap();
   const Matrix6d carry = adjoint(T_previous_base.inverse());
   const Matrix6d previous_noise = carry * noise_ * carry.transpose();
-  noise_ = inBase(result.pose_noise);
-  accumulated_ = carry * accumulated_ * carry.transpose() + motion;
-  effects_ = carry * effects_ + effect;
-  lost_for_s_ = 0.0;
-  return previous_noise + motion + noise_ + shared(effect) + diagonal(kLeastSigma, kLeastSigma);
+  add(motion);
+  return previous_noise + motion.covariance + noise_ + shared(motion.effects) +
+         diagonal(kLeastSigma, kLeastSigma);
+}
+
+OdomCovariance::Motion OdomCovariance::motionOf(const odometry::FrameResult& result,
+                                                const Eigen::Isometry3d& T_previous_base) const {
+  const double bent_px = params_.distortion_sigma_px;
+  return {T_previous_base, inBase(result.motion_covariance + bent_px * bent_px * result.covariance_per_px2),
+          inBase(result.pose_noise), effects(result)};
+}
+
+void OdomCovariance::add(const Motion& motion) {
+  const Matrix6d carry = adjoint(motion.T_previous_base.inverse());
+  noise_ = motion.pose_noise;
+  accumulated_ = carry * accumulated_ * carry.transpose() + motion.covariance;
+  effects_ = carry * effects_ + motion.effects;
+}
+
+Matrix6d OdomCovariance::addGap(const odometry::FrameResult& result, const Eigen::Isometry3d& T_previous_base,
+                                double interval_s) {
+  const Matrix6d before = gapCovariance();
+  // Motions that were not confirmed have not happened.
+  Eigen::Isometry3d step = T_previous_base;
+  for (auto motion = gap_.unconfirmed.rbegin(); motion != gap_.unconfirmed.rend(); ++motion)
+    step = motion->T_previous_base * step;
+  gap_.unconfirmed.clear();
+  const double elapsed_s = interval_s + std::exchange(gap_.unconfirmed_for_s, 0.0);
+
+  const Matrix6d carry = adjoint(step.inverse());
+  gap_.way = gap_.way * step;
+  gap_.before = carry * gap_.before * carry.transpose();
+  gap_.predicted = inBase(result.motion_covariance.allFinite() ? result.motion_covariance : Matrix6d::Zero());
+  gap_.turn_is_measured = result.turn_is_measured;
+  const bool coasts = result.state == odometry::State::kCoasting;
+  (coasts ? gap_.predicted_for_s : gap_.unknown_for_s) += elapsed_s;
+  const Matrix6d covariance = gapCovariance();
+  const double share = interval_s / gap_.predicted_for_s;
+  if (result.new_map) {
+    gap_.before += std::exchange(gap_.predicted, Matrix6d::Zero());
+    gap_.predicted_for_s = 0.0;
+    gap_.new_map = true;
+  }
+  // A velocity whose error grew as a position's did has at most three times the variance that made it.
+  return coasts ? Matrix6d(3.0 * share * share * gap_.predicted) : Matrix6d(covariance - before);
+}
+
+void OdomCovariance::keepGap() {
+  const Matrix6d carry = adjoint(gap_.way.inverse());
+  accumulated_ = carry * (accumulated_ + noise_) * carry.transpose() + gapCovariance();
+  effects_ = carry * effects_;
+  noise_.setZero();
 }
 
 Matrix6d OdomCovariance::pose(const Eigen::Matrix3d& R_odom_base) const {
-  return turned(R_odom_base, accumulated_ + noise_ + shared(effects_) + gap());
+  const Matrix6d carry = adjoint(gap_.way.inverse());
+  const Matrix6d measured = accumulated_ + noise_ + shared(effects_);
+  const Matrix6d unconfirmed = gap_.unconfirmed_for_s * gap_.unconfirmed_for_s * unknownTwist();
+  return turned(R_odom_base, carry * measured * carry.transpose() + gapCovariance() + unconfirmed);
 }
 
 Matrix6d OdomCovariance::unknownTwist() const {
-  return diagonal(params_.lost_speed_m_s, params_.lost_turn_rate_rad_s);
+  return diagonal(std::hypot(params_.lost_speed_m_s, last_twist_.head<3>().norm()),
+                  std::hypot(params_.lost_turn_rate_rad_s, last_twist_.tail<3>().norm()));
 }
 
 Matrix6d OdomCovariance::inBase(const Matrix6d& covariance) const {
@@ -108,8 +176,10 @@ Matrix6d OdomCovariance::shared(const Effects& effects) const {
   return scaled * scaled.transpose();
 }
 
-Matrix6d OdomCovariance::gap() const {
-  return lost_for_s_ * lost_for_s_ * unknownTwist();
+Matrix6d OdomCovariance::gapCovariance() const {
+  Matrix6d unknown = gap_.unknown_for_s * gap_.unknown_for_s * unknownTwist();
+  if (gap_.turn_is_measured) unknown.bottomRightCorner<3, 3>().setZero();
+  return gap_.before + gap_.predicted + unknown;
 }
 
 }  // namespace stereo_nav::estimation

@@ -51,7 +51,7 @@ class BaseOdometry {
   Eigen::Isometry3d T_odom_start_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_start_base_ = Eigen::Isometry3d::Identity();  ///< newest, by the odometry
   std::optional<double> previous_time_s_;
-  bool previous_lost_ = false;
+  bool previous_measured_ = true;
   BaseEstimate estimate_;
 };
 

@@ -89,6 +89,8 @@ void Health::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(Level::ERROR, "no odometry yet");
   } else if (last_.state == odometry::State::kLost) {
     status.summary(Level::WARN, "lost: " + last_.reason);
+  } else if (last_.state == odometry::State::kCoasting) {
+    status.summary(Level::WARN, "coasting on the last velocity: " + last_.reason);
   } else {
     status.summary(Level::OK, nameOf(last_.state));
   }

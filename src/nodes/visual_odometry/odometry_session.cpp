@@ -50,7 +50,7 @@ SessionOutput OdometrySession::process(const ros_io::Inbox::Work& work, const Se
   output.base = base_->update(output.result, output.images.left_time_s);
   output.processed = true;
   ++frames_processed_;
-  if (output.result.state == odometry::State::kLost) ++frames_lost_;
+  if (!odometry::isMeasured(output.result.state)) ++frames_lost_;
   checkCameraOrder(output);
   checkImu(output);
   return output;

@@ -40,10 +40,10 @@ FrameResult WatchedOdometry::process(const StereoFrame& frame) {
   if (!imu_problem_.empty()) result.T_start_camera = T_start_first_ * result.T_start_camera;
   if (!imu_problem_.empty() || imu_.empty()) return result;
   const bool has_previous = !previous_.left.empty();
-  if (has_previous && isTracked(result) && previous_state_ != State::kLost)
+  if (has_previous && isTracked(result) && isMeasured(previous_state_))
     contradiction_.add(previous_.left_time_s, frame.left_time_s,
                        result.T_previous_current.linear().transpose());
-  const bool is_suspicious = result.state == State::kLost || contradiction_.isSuspected(imu_);
+  const bool is_suspicious = !isMeasured(result.state) || contradiction_.isSuspected(imu_);
   if (has_previous && !witness_ && !frame.right.empty() && is_suspicious) startWitness();
   if (witness_) {
     if (const auto taken_over = askWitness(frame)) return *taken_over;

@@ -83,4 +83,13 @@ std::string moverFillsView() {
          "its own fills the view; the features seen before are waited for";
 }
 
+std::string ambiguous() {
+  return "two groups of features of nearly the same size tell of two motions, and nothing else decides between "
+         "them: something that moves on its own, or that is fixed to the camera, covers half of the view";
+}
+
+std::string unconfirmed() {
+  return "the map has just begun: its first motion is believed once the next frame confirms it";
+}
+
 }  // namespace stereo_nav::odometry

@@ -21,5 +21,8 @@ std::string tooFewLandmarks(std::size_t landmarks, int needed);
 std::string tooFewInliers(std::size_t inliers, std::size_t tracked, int needed);
 std::string blankImage(std::size_t corners);
 std::string moverFillsView();
+/// Why a motion that nothing predicts is not believed, and why the first one of a map is not yet.
+std::string ambiguous();
+std::string unconfirmed();
 
 }  // namespace stereo_nav::odometry

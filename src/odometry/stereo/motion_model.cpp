@@ -41,6 +41,7 @@ WindowFrame MotionModel::start(const FrameTimes& times, const Eigen::Isometry3d&
   previous_times_ = times;
   previous_interval_s_ = 0.0;
   previous_view_ = first.view;
+  trusted_ = Trusted{times.left_s, T_camera_world, std::nullopt, Vector6d::Zero()};
   return first;
 }
 
@@ -69,12 +70,53 @@ MotionPrior MotionModel::prior(const FrameTimes& times) const {
   return prior;
 }
 
-Eigen::Isometry3d MotionModel::turnedSincePrevious(const FrameTimes& times) const {
-  Eigen::Isometry3d T_current_previous = Eigen::Isometry3d::Identity();
-  if (const auto turn = imu_.increment(previous_times_.left_s, times.left_s)) {
-    T_current_previous.linear() = turn->R_current_previous;
+Coasted MotionModel::coasted(const FrameTimes& times, double coasting_s) const {
+  Coasted coasted;
+  if (!trusted_) return coasted;
+  const double lost_s = times.left_s - trusted_->time_s;
+  const double time_s = trusted_->twist ? std::min(lost_s, coasting_s) : 0.0;
+  coasted.velocity_is_known = trusted_->twist && lost_s <= coasting_s;
+  Vector6d way = trusted_->twist.value_or(Vector6d::Zero()) * time_s;
+  Vector6d variance = trusted_->twist_variance * time_s * time_s;
+  const double growth_s3 =
+      time_s * time_s * time_s / 3.0;  // white noise on the acceleration, integrated twice
+  variance.head<3>().array() += params_.acceleration_density * growth_s3;
+  variance.tail<3>().array() += params_.angular_acceleration_density * growth_s3;
+  Eigen::Isometry3d held = Eigen::Isometry3d::Identity();  // what the IMU saw after the coasting
+  if (const auto turn = imu_.increment(trusted_->time_s, times.left_s)) {
+    const Eigen::Vector3d angle = logRotation(turn->R_current_previous);
+    way.tail<3>() = angle * time_s / lost_s;
+    held.linear() = expRotation(angle - way.tail<3>());
+    variance.tail<3>().setConstant(turn->sigma_rad * turn->sigma_rad);
+    coasted.turn_is_measured = true;
   }
-  return T_current_previous * previous_view_.T_camera_world;
+  // A heading that is off on the way leads aside.
+  variance.head<3>().array() += way.head<3>().squaredNorm() * variance.tail<3>().maxCoeff() / 3.0;
+  coasted.T_camera_world = held * expMotion(way) * trusted_->T_camera_world;
+  coasted.covariance = variance.asDiagonal();
+  return coasted;
+}
+
+bool MotionModel::expects(const Eigen::Isometry3d& T_camera_world, const Matrix6d& covariance,
+                          const FrameTimes& times, double coasting_s) const {
+  constexpr double kSigmas = 4.5;  // 99.7 % of six coordinates
+  const Coasted coasted = this->coasted(times, coasting_s);
+  if (!coasted.velocity_is_known) return false;
+  const Vector6d difference = logMotion(T_camera_world * coasted.T_camera_world.inverse());
+  return difference.dot((coasted.covariance + covariance).ldlt().solve(difference)) < kSigmas * kSigmas;
+}
+
+void MotionModel::trustPrevious() {
+  Trusted trusted{previous_times_.left_s, previous_view_.T_camera_world, std::nullopt, Vector6d::Zero()};
+  if (previous_interval_s_ > 0.0) {
+    trusted.twist = Vector6d(logMotion(T_previous_before_) / previous_interval_s_);
+    // The mean over the interval, by two poses; the velocity at its end is another one.
+    const double interval_s = previous_interval_s_;
+    trusted.twist_variance = 2.0 * pose_variance_ / (interval_s * interval_s);
+    trusted.twist_variance.head<3>().array() += params_.acceleration_density * interval_s / 3.0;
+    trusted.twist_variance.tail<3>().array() += params_.angular_acceleration_density * interval_s / 3.0;
+  }
+  trusted_ = trusted;
 }
 
 bool MotionModel::exceedsAcceleration(const Eigen::Isometry3d& T_current_previous, double interval_s) const {
@@ -121,10 +163,12 @@ void MotionModel::smoothTimeOffset(const FrameTimes& times, const vision::Stereo
 }
 
 void MotionModel::update(const FrameTimes& times, const MotionPrior& prior, const vision::StereoView& view,
-                         double rotation_sigma_rad) {
+                         const Matrix6d& covariance) {
   const Eigen::Isometry3d T_current_previous = view.T_camera_world * prior.T_previous_world.inverse();
   if (prior.R_current_previous) {
-    imu_.learn(previous_times_.left_s, times.left_s, T_current_previous.linear(), rotation_sigma_rad);
+    const double rotation_variance = covariance.bottomRightCorner<3, 3>().trace() / 3.0;
+    imu_.learn(previous_times_.left_s, times.left_s, T_current_previous.linear(),
+               std::sqrt(rotation_variance));
   }
   if (times.rightOffset_s() != 0.0) {
     twist_ = Vector6d(logMotion(view.T_late_camera) / times.rightOffset_s());
@@ -135,6 +179,7 @@ void MotionModel::update(const FrameTimes& times, const MotionPrior& prior, cons
   previous_interval_s_ = prior.interval_s;
   previous_times_ = times;
   previous_view_ = view;
+  pose_variance_ = covariance.diagonal();
 }
 
 }  // namespace stereo_nav::odometry

@@ -42,7 +42,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
   if (map_.empty()) {
     result.state = keyframe_id_ == 0 ? State::kInitialising : State::kLost;
     result.reason = "no map yet: this frame has nothing to measure its motion against";
-    startMap(images, motion_.previousView().T_camera_world, result);
+    startMapCoasting(images, result);
   } else {
     MotionPrior prior = motion_.prior(images.times);
     std::optional<PoseEstimate> estimate = estimatePose(images, prior, result);
@@ -57,7 +57,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
       handleLoss(images, result);
     }
   }
-  result.T_start_camera = motion_.previousView().T_camera_world.inverse();
+  result.T_start_camera = T_camera_world_.inverse();
   result.keyframe_id = keyframe_id_;
   result.time_offset_compensated = images.times.rightOffset_s() != 0.0;
   reportTracks(follower_.tracks(), motion_.previousView().T_camera_world, result);
@@ -92,7 +92,7 @@ std::optional<PoseEstimate> StereoOdometry::estimatePose(const StereoImages& ima
     estimate = estimateRobustly(foundTracks(follower_.tracks()), prior, estimate.view);
   }
   clock.lap("estimate");
-  if (isAcceptable(estimate, prior, result)) return estimate;
+  if (isAcceptable(estimate, prior, images.times, result)) return estimate;
   for (Track& track : follower_.tracks()) track.inlier = false;
   return std::nullopt;
 }
@@ -151,9 +151,8 @@ bool StereoOdometry::hasEnoughInliers(const PoseEstimate& estimate) const {
 }
 
 bool StereoOdometry::hasFewInliers(const PoseEstimate& estimate) const {
-  constexpr double kShare = 0.6;
   return static_cast<double>(estimate.inliers) <
-         kShare * static_cast<double>(aliveTracks(follower_.tracks()));
+         kStrongShare * static_cast<double>(aliveTracks(follower_.tracks()));
 }
 
 bool StereoOdometry::exceedsAcceleration(const PoseEstimate& estimate, const MotionPrior& prior) const {
@@ -162,15 +161,27 @@ bool StereoOdometry::exceedsAcceleration(const PoseEstimate& estimate, const Mot
                                      prior.interval_s);
 }
 
+bool StereoOdometry::isAmbiguous(const Consensus& consensus) const {
+  if (!isConfirmed() && restsOnFew(consensus, estimator_, params_.motion.max_error_px)) return true;
+  return !consensus.is_expected &&
+         hasRival(consensus, params_.clique, params_.rigidity, estimator_, params_.motion.max_error_px);
+}
+
 bool StereoOdometry::isAcceptable(const PoseEstimate& estimate, const MotionPrior& prior,
-                                  FrameResult& result) const {
+                                  const FrameTimes& times, FrameResult& result) const {
   if (!hasEnoughInliers(estimate)) {
     result.reason = tooFewInliers(estimate.inliers, result.features_tracked, params_.min_inliers);
     return false;
   }
-  if (!exceedsAcceleration(estimate, prior)) return true;
-  result.reason = moverFillsView();
-  return false;
+  const Consensus consensus{
+      calibration_, follower_.tracks(), prior, estimate,
+      motion_.expects(estimate.view.T_camera_world, estimate.covariance, times, params_.coasting_s)};
+  result.reason = doubtAbout(consensus);
+  if (result.reason.empty() && isAmbiguous(consensus)) result.reason = ambiguous();
+  if (result.reason.empty() && exceedsAcceleration(estimate, prior)) result.reason = moverFillsView();
+  if (result.reason.empty() && confirmations_ == 1)
+    result.reason = doubtAboutStart(follower_.tracks(), params_.min_inliers);
+  return result.reason.empty();
 }
 
 bool StereoOdometry::recoverTracks(const StereoImages& images, const vision::StereoView& view) {
@@ -217,9 +228,15 @@ void StereoOdometry::updateMap(const StereoImages& images, const MotionPrior& pr
     result.rotation_disagreement_rad =
         logRotation(*prior.R_current_previous * T_current_previous.linear().transpose()).norm();
   }
-  const double rotation_variance = estimate.covariance.bottomRightCorner<3, 3>().trace() / 3.0;
-  motion_.update(images.times, prior, view, std::sqrt(rotation_variance));
-  result.state = State::kTracking;
+  motion_.update(images.times, prior, view, estimate.covariance);
+  T_camera_world_ = view.T_camera_world;
+  if (!isConfirmed()) ++confirmations_;
+  result.state = isConfirmed() ? State::kTracking : State::kInitialising;
+  if (isConfirmed()) {
+    motion_.trustPrevious();
+  } else {
+    result.reason = unconfirmed();
+  }
   result.T_previous_current = T_current_previous.inverse();
   result.pose_noise = estimate.covariance;
   reportSensitivity(calibration_, follower_.tracks(), estimate, result);
@@ -239,6 +256,7 @@ void StereoOdometry::startMap(const StereoImages& images, const Eigen::Isometry3
                               FrameResult& result) {
   StageClock clock(result.stage_times);
   map_.start(motion_.start(images.times, T_camera_world));
+  confirmations_ = 0;
   follower_.reset();
   row_twist_.setZero();
   mover_fills_view_ = false;
@@ -290,18 +308,43 @@ void StereoOdometry::addLandmarks(const StereoImages& images, FrameResult& resul
   }
 }
 
+bool StereoOdometry::coast(const FrameTimes& times, FrameResult& result) {
+  const Coasted coasted = motion_.coasted(times, params_.coasting_s);
+  result.T_previous_current = T_camera_world_ * coasted.T_camera_world.inverse();
+  result.motion_covariance = coasted.covariance;
+  result.turn_is_measured = coasted.turn_is_measured;
+  T_camera_world_ = coasted.T_camera_world;
+  return coasted.velocity_is_known;
+}
+
+void StereoOdometry::startMapCoasting(const StereoImages& images, FrameResult& result) {
+  const bool is_moving = coast(images.times, result);
+  const StereoOdometry before = *this;
+  startMap(images, T_camera_world_, result);
+  if (result.keyframe) {
+    result.new_map = result.state != State::kInitialising;
+  } else if (!before.map_.empty()) {  // an old map is worth more than none
+    *this = before;
+    if (is_moving) result.state = State::kCoasting;
+  }
+}
+
 void StereoOdometry::handleLoss(const StereoImages& images, FrameResult& result) {
   constexpr double kPatience_s = 1.0;  // for what fills the view and may pass
-  result.state = State::kLost;
   const double lost_for_s = images.times.left_s - motion_.previousTimes().left_s;
   const std::size_t corners = detector_.countCorners(images.left);
-  if (corners < static_cast<std::size_t>(params_.min_inliers)) {
+  const bool is_blank = corners < static_cast<std::size_t>(params_.min_inliers);
+  if (is_blank) {
     result.reason = blankImage(corners);
   } else if (!(mover_fills_view_ && lost_for_s < kPatience_s)) {
     ++lost_frames_;
   }
-  if (lost_frames_ > params_.max_lost_frames)
-    startMap(images, motion_.turnedSincePrevious(images.times), result);
+  result.state = State::kLost;  // and what has not been confirmed is not worth waiting for
+  if (lost_frames_ > params_.max_lost_frames || (!is_blank && !isConfirmed())) {
+    startMapCoasting(images, result);
+  } else if (coast(images.times, result)) {
+    result.state = State::kCoasting;
+  }
 }
 
 }  // namespace stereo_nav::odometry

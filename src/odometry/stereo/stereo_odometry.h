@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "odometry/stereo/consensus.h"
 #include "odometry/stereo/feature_follower.h"
 #include "odometry/stereo/landmark_detector.h"
 #include "odometry/stereo/local_map.h"
@@ -43,8 +44,11 @@ class StereoOdometry : public Odometry {
   /// Whether so few of the tracks agree that the prediction was probably poor.
   bool hasFewInliers(const PoseEstimate& estimate) const;
   bool exceedsAcceleration(const PoseEstimate& estimate, const MotionPrior& prior) const;
+  /// Whether two motions have nearly the same support and nothing else decides between them.
+  bool isAmbiguous(const Consensus& consensus) const;
   /// If the estimate is not acceptable, `result` tells why.
-  bool isAcceptable(const PoseEstimate& estimate, const MotionPrior& prior, FrameResult& result) const;
+  bool isAcceptable(const PoseEstimate& estimate, const MotionPrior& prior, const FrameTimes& times,
+                    FrameResult& result) const;
   /// Looks again for what was not found or did not fit, near the pose `view`. Returns whether it found any.
   bool recoverTracks(const StereoImages& images, const vision::StereoView& view);
   FramePrediction prediction(const vision::StereoView& view) const;
@@ -61,6 +65,12 @@ class StereoOdometry : public Odometry {
   void addLandmarks(const StereoImages& images, FrameResult& result);
   /// Waits for the features seen before, or begins a new map.
   void handleLoss(const StereoImages& images, FrameResult& result);
+  /// Begins a map at the pose to which the rig has coasted.
+  void startMapCoasting(const StereoImages& images, FrameResult& result);
+  /// Sets the pose to the one to which the rig has coasted. Returns whether its velocity is known.
+  bool coast(const FrameTimes& times, FrameResult& result);
+  /// Whether enough frames have agreed with the map since it began. Before, nothing is tracked.
+  bool isConfirmed() const { return confirmations_ >= kConfirmations; }
 
   StereoParams params_;
   vision::StereoCalibration calibration_;
@@ -74,6 +84,10 @@ class StereoOdometry : public Odometry {
   RightImageMatcher matcher_;
   LandmarkDetector detector_;
   LocalMap map_;
+
+  static constexpr int kConfirmations = 2;  ///< frames after the first one
+  int confirmations_ = 0;                   ///< frames that agreed with the map in use
+  Eigen::Isometry3d T_camera_world_ = Eigen::Isometry3d::Identity();  ///< of the newest frame, as reported
 
   std::uint32_t keyframe_id_ = 0;
   std::size_t keyframe_features_ = 0;  ///< tracks of the last keyframe

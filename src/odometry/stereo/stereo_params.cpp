@@ -21,6 +21,9 @@ void StereoParams::describe(ParameterVisitor& visitor) {
       "max_lost_frames", max_lost_frames, {0, 1000}, "",
       "consecutive lost frames after which the map is given up and a new one is begun; blank images "
       "do not count");
+  visitor.real("coasting_s", coasting_s, {0.0, 60.0}, "s",
+               "how long the pose goes on with the last velocity while no motion is measured; after that the "
+               "position is held");
   motion_model.describe(visitor);
 }
 

@@ -26,6 +26,7 @@ struct StereoParams {
   ImuRotationParams imu;
   int min_inliers = 12;
   int max_lost_frames = 3;
+  double coasting_s = 1.0;
   MotionModelParams motion_model;
 
   void describe(ParameterVisitor& visitor);

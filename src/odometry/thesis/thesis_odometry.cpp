@@ -248,6 +248,7 @@ void ThesisOdometry::adoptReference(const StereoFrame& frame, FrameResult& resul
       R_tracked_reference_ = R_tracked_reference_ * R_current_previous->transpose();
     }
   }
+  result.new_map = reference_ && result.state == State::kLost;
   reference_ = std::move(next);
   result.keyframe = true;
 }

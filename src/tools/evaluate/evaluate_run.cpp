@@ -133,7 +133,7 @@ class Run {
     record.clock_offset_s = recording_.clockOffset_s(pair.left_time_s);
     const estimation::UncertainPose pose = uncertainty_.add(result, record.time_s);
     record.pose_covariance = pose.covariance;
-    if (result.state != odometry::State::kLost)
+    if (odometry::isMeasured(result.state))
       record.T_odom_base = pose.T_odom_base;
     else
       record.reason = result.reason;

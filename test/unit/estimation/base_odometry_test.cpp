@@ -110,12 +110,26 @@ TEST(BaseOdometry, ALostFrameHoldsThePoseAndSpreadsTheCovariance) {
   const BaseEstimate estimate = odometry.update(lost, 0.2);
   EXPECT_TRUE(estimate.T_odom_base.isApprox(motion, kTolerance));
   EXPECT_TRUE(estimate.twist.isZero());
-  EXPECT_NEAR(estimate.twist_covariance(0, 0), 1.0, kTolerance);  // (1 m/s)^2
-  EXPECT_NEAR(estimate.pose_covariance(0, 0) - before, 0.01, kTolerance);
+  EXPECT_NEAR(estimate.twist_covariance(0, 0), 2.0,
+              kTolerance);  // (1 m/s)^2, and as much for the speed it had
+  EXPECT_NEAR(estimate.pose_covariance(0, 0) - before, 0.02, kTolerance);
   // What follows may span more than one interval: a pose, but no velocity.
   const BaseEstimate after = odometry.update(resultFor(planar(0.3, 0, 0), planar(0.2, 0, 0)), 0.3);
   EXPECT_TRUE(after.twist.isZero());
   EXPECT_NEAR(after.T_odom_base.translation().x(), 0.3, kTolerance);
+}
+
+TEST(BaseOdometry, ACoastingFrameHasAVelocity) {
+  BaseOdometry odometry = started();
+  const Eigen::Isometry3d motion = planar(0.1, 0.0, 0.0);
+  odometry.update(resultFor(motion, motion), 0.1);
+  odometry::FrameResult coasting = resultFor(planar(0.2, 0.0, 0.0), motion);
+  coasting.state = odometry::State::kCoasting;
+  coasting.motion_covariance(2, 2) = 0.0004;  // ahead: 0.2 m/s after 0.1 s
+  const BaseEstimate estimate = odometry.update(coasting, 0.2);
+  EXPECT_NEAR(estimate.T_odom_base.translation().x(), 0.2, kTolerance);
+  EXPECT_NEAR(estimate.twist[0], 1.0, kTolerance);
+  EXPECT_NEAR(estimate.twist_covariance(0, 0), 3.0 * 0.04, kTolerance);
 }
 
 TEST(BaseOdometry, CovariancesArePositiveDefiniteFromTheStart) {

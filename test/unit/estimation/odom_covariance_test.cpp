@@ -149,14 +149,71 @@ TEST_F(OdomCovarianceTest, AnUnmeasuredVelocityIsTheSameUntilAMotionIsMeasured) 
   EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 0.0, 1e-9) << "against the same map the pose is known again";
 }
 
+odometry::FrameResult anew() {
+  odometry::FrameResult result = lost();
+  result.new_map = true;
+  return result;
+}
+
 TEST_F(OdomCovarianceTest, ANewMapKeepsTheUncertaintyOfTheGap) {
   OdomCovariance covariance = started(perfectCalibration());
   for (int i = 0; i < 5; ++i) add(covariance, lost());
-  odometry::FrameResult anew = lost();
-  anew.keyframe = true;
-  add(covariance, anew);
-  for (int i = 0; i < 5; ++i) add(covariance, ahead(0.1));
+  add(covariance, anew());
+  for (int i = 0; i < 5; ++i) add(covariance, ahead(0.0));
   EXPECT_NEAR(covariance.pose(kLevel)(0, 0), std::pow(0.6, 2), 1e-6) << "1 m/s for 0.6 s";
+}
+
+TEST_F(OdomCovarianceTest, ARobotThatIsFastBeforeOrAfterAGapWasFastInIt) {
+  for (const bool before : {true, false}) {
+    OdomCovariance covariance = started(perfectCalibration());
+    add(covariance, ahead(before ? 1.0 : 0.0));
+    for (int i = 0; i < 5; ++i) add(covariance, lost());
+    add(covariance, anew());
+    add(covariance, ahead(before ? 0.0 : 1.0));
+    EXPECT_NEAR(covariance.pose(kLevel)(0, 0), (1.0 + 100.0) * std::pow(0.6, 2), 1e-3) << "10 m/s for 0.6 s";
+  }
+}
+
+TEST_F(OdomCovarianceTest, ACoastingPoseHasWhatIsPredicted) {
+  OdomCovariance covariance = started(perfectCalibration());
+  for (int i = 1; i <= 5; ++i) {
+    odometry::FrameResult coasting = ahead(0.1);
+    coasting.state = odometry::State::kCoasting;
+    coasting.motion_covariance(0, 0) = 0.01 * i * i;
+    add(covariance, coasting);
+    EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 0.01 * i * i, 1e-9);
+  }
+  odometry::FrameResult then = lost();
+  then.motion_covariance(0, 0) = 0.25;
+  then.turn_is_measured = true;
+  add(covariance, then);
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 0.25 + 0.01, 1e-9) << "and 1 m/s for 0.1 s";
+  EXPECT_NEAR(covariance.pose(kLevel)(3, 3), 0.0, 1e-9) << "the IMU knows the turn";
+  add(covariance, ahead(0.0));
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 0.0, 1e-9) << "the old map is found again";
+}
+
+TEST_F(OdomCovarianceTest, AFirstMotionCountsOnceItIsConfirmed) {
+  OdomCovariance covariance = started(perfectCalibration());
+  odometry::FrameResult first = ahead(0.2);
+  first.state = odometry::State::kInitialising;
+  first.motion_covariance(0, 0) = 1e-4;
+  add(covariance, first);
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 0.01, 1e-6) << "1 m/s for 0.1 s";
+  add(covariance, ahead(0.2));
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 1e-4, 1e-9);
+}
+
+TEST_F(OdomCovarianceTest, AFirstMotionThatIsNotConfirmedHasNotHappened) {
+  OdomCovariance covariance = started(perfectCalibration());
+  odometry::FrameResult first = ahead(0.2);
+  first.state = odometry::State::kInitialising;
+  first.motion_covariance(0, 0) = 1.0;
+  add(covariance, first);
+  odometry::FrameResult back = anew();
+  back.T_previous_current.translation().x() = -0.2;
+  add(covariance, back);
+  EXPECT_NEAR(covariance.pose(kLevel)(0, 0), 0.04, 1e-6) << "1 m/s for 0.2 s";
 }
 
 }  // namespace

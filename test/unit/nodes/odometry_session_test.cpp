@@ -141,7 +141,7 @@ TEST_F(OdometrySessionTest, WaitsForTheImusMountingBeforeItStartsButNotLater) {
   setup_.imu_frame = ros_io::frames::kImu;
   output = process(frameAt(0.1));
   EXPECT_TRUE(output.processed);
-  EXPECT_EQ(output.result.state, odometry::State::kTracking);
+  EXPECT_TRUE(odometry::isMeasured(output.result.state));
   EXPECT_EQ(output.warnings.count("imu_transform"), 1u);
 
   // When the mounting is known, the odometry starts anew and keeps the pose.
@@ -235,7 +235,7 @@ TEST_F(OdometrySessionTest, ALoopingBagStartsAgainAtTheOriginACorrectedClockDoes
     ASSERT_EQ(jumped.announcements.size(), 1u);
     EXPECT_TRUE(contains(jumped.announcements[0], "jumped back"));
     EXPECT_EQ(jumped.base.T_odom_base.isApprox(Eigen::Isometry3d::Identity()), !live);
-    EXPECT_EQ(process(frameAt(0.1)).result.state, odometry::State::kTracking);
+    EXPECT_TRUE(odometry::isMeasured(process(frameAt(0.1)).result.state));
   }
 }
 
@@ -249,7 +249,7 @@ TEST_F(OdometrySessionTest, ResetAndSetPose) {
   set.translation() << 10.0, 20.0, 0.0;
   ASSERT_TRUE(session_.setPose(set, Matrix6d::Zero()));
   const SessionOutput output = process(frameAt(0.4));
-  EXPECT_EQ(output.result.state, odometry::State::kTracking) << "tracking goes on";
+  EXPECT_TRUE(odometry::isMeasured(output.result.state)) << "the odometry goes on";
   const Eigen::Isometry3d motion = expectedPose(0.3).inverse() * expectedPose(0.4);
   EXPECT_LT((output.base.T_odom_base.translation() - (set * motion).translation()).norm(), kTolerance_m);
 }

@@ -35,8 +35,18 @@ enum class DisparityUse {
   kLatest,   ///< the newest that has come, often that of the frame before, as the thesis' program did
 };
 
-/// How the pose of a frame was found.
-enum class State { kInitialising, kTracking, kCoasting, kLost };  // as in VoStatus.msg
+/// How the pose of a frame was found; the values are those of VoStatus.msg.
+enum class State {
+  kInitialising,  ///< a map has just begun: the motion, if any, is measured but not confirmed yet
+  kTracking,      ///< the motion was measured
+  kCoasting,      ///< nothing is measured; the pose goes on with the last velocity
+  kLost           ///< nothing is known of the motion but what the IMU says
+};
+
+/// Whether the pose of the frame was measured, be it confirmed or not yet.
+inline bool isMeasured(State state) {
+  return state == State::kTracking || state == State::kInitialising;
+}
 
 /// What became of one feature of the left image, for pictures and clouds.
 struct FeatureReport {
@@ -61,10 +71,14 @@ struct StageTime {
 struct FrameResult {
   State state = State::kInitialising;  ///< what the frame means for the pose
   std::string reason;  ///< why it is not kTracking: what was seen, the likely cause, the remedy
-  Eigen::Isometry3d T_start_camera = Eigen::Isometry3d::Identity();      ///< held while lost
-  Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();  ///< motion since the previous frame
-  /// What the motion adds to the uncertainty of this pose and all later ones, current camera frame: m, m, m,
-  /// rad, rad, rad. Where frames are measured against a map it is that of the map's growth.
+  Eigen::Isometry3d T_start_camera = Eigen::Isometry3d::Identity();  ///< position held while lost
+  /// Motion since the previous frame; where it was measured after frames without a measurement, since the
+  /// last measured pose of the same map.
+  Eigen::Isometry3d T_previous_current = Eigen::Isometry3d::Identity();
+  /// While kCoasting or kLost: covariance of the predicted motion since the last kTracking pose or the last
+  /// `new_map`; zero where only the time without a measurement tells how far it went. Otherwise: what the
+  /// motion adds to the uncertainty of this pose and all later ones, current camera frame: m, m, m, rad, rad,
+  /// rad. Where frames are measured against a map it is that of the map's growth.
   Matrix6d motion_covariance = Matrix6d::Zero();
   /// Noise of this frame's pose alone, which later frames do not share; current camera frame, as above.
   Matrix6d pose_noise = Matrix6d::Zero();
@@ -72,6 +86,9 @@ struct FrameResult {
   double scale_per_px = 0.0;
   /// What lenses that bend the image by 1 px (one sigma) beyond their calibration add to motion_covariance.
   Matrix6d covariance_per_px2 = Matrix6d::Zero();
+  /// A map began with this frame, at a pose that was not measured; that of the first frame is by definition.
+  bool new_map = false;
+  bool turn_is_measured = false;          ///< while kCoasting or kLost: the rotation is the IMU's
   bool keyframe = false;                  ///< whether this frame became a keyframe
   std::uint32_t keyframe_id = 0;          ///< of the newest keyframe
   std::uint32_t features_detected = 0;    ///< all features of the left image

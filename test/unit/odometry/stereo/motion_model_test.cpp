@@ -22,7 +22,7 @@ class MotionModelTest : public ::testing::Test {
     vision::StereoView view;
     view.T_camera_world = expMotion(twist * kPeriod_s) * prior.T_previous_world;
     view.T_late_camera = expMotion(twist * offset_s);
-    model.update(times, prior, view, 1e-3);
+    model.update(times, prior, view, Matrix6d(1e-6 * Matrix6d::Identity()));
     return prior;
   }
 
@@ -73,15 +73,58 @@ TEST_F(MotionModelTest, TheImuTellsTheRotationAndWhereANewMapBegins) {
   EXPECT_TRUE(prior.R_late_camera->isApprox(expRotation(-0.05 * rate), 1e-6));
   EXPECT_TRUE(prior.predictsMotion());
   EXPECT_EQ(prior.lateSigma()[5], prior.rotation_sigma_rad);
-  const Eigen::Isometry3d turned = model.turnedSincePrevious({0.5, 0.5});
-  EXPECT_TRUE(turned.linear().isApprox(expRotation(-0.3 * rate), 1e-6));
-  EXPECT_TRUE(turned.translation().isZero());
+  const Coasted turned = model.coasted({0.5, 0.5}, 1.0);
+  EXPECT_TRUE(turned.turn_is_measured);
+  EXPECT_FALSE(turned.velocity_is_known);
+  EXPECT_TRUE(turned.T_camera_world.linear().isApprox(expRotation(-0.3 * rate), 1e-6));
+  EXPECT_TRUE(turned.T_camera_world.translation().isZero());
 }
 
 TEST_F(MotionModelTest, WithoutImuANewMapBeginsWhereTheLastOneEnded) {
   const Eigen::Isometry3d T_camera_world = expMotion(steadyTwist());
   model.start({0.0, 0.0}, T_camera_world);
-  EXPECT_TRUE(model.turnedSincePrevious({1.0, 1.0}).isApprox(T_camera_world));
+  const Coasted coasted = model.coasted({1.0, 1.0}, 1.0);
+  EXPECT_TRUE(coasted.T_camera_world.isApprox(T_camera_world));
+  EXPECT_FALSE(coasted.turn_is_measured);
+}
+
+TEST_F(MotionModelTest, CoastsOnTheLastVelocityForABoundedTime) {
+  model.start({0.0, 0.0}, Eigen::Isometry3d::Identity());
+  step(1, steadyTwist());
+  EXPECT_FALSE(model.coasted({0.2, 0.2}, 1.0).velocity_is_known) << "the first motion is not trusted yet";
+  model.trustPrevious();
+  const Coasted coasting = model.coasted({0.5, 0.5}, 1.0);
+  EXPECT_TRUE(coasting.velocity_is_known);
+  EXPECT_TRUE(coasting.T_camera_world.isApprox(expMotion(0.5 * steadyTwist()), 1e-9));
+  const Coasted held = model.coasted({2.0, 2.0}, 1.0);
+  EXPECT_FALSE(held.velocity_is_known);
+  EXPECT_TRUE(held.T_camera_world.isApprox(expMotion(1.1 * steadyTwist()), 1e-9))
+      << "0.1 s and 1 s of coasting";
+}
+
+TEST_F(MotionModelTest, CoastingGrowsUncertainAsAVelocityThatChanges) {
+  model.start({0.0, 0.0}, Eigen::Isometry3d::Identity());
+  step(1, Vector6d::Zero());
+  model.trustPrevious();
+  for (const double time_s : {0.2, 0.4, 0.8}) {
+    const double velocity_variance =
+        2e-6 / (kPeriod_s * kPeriod_s) + params.acceleration_density * kPeriod_s / 3.0;
+    const double expected =
+        velocity_variance * time_s * time_s + params.acceleration_density * time_s * time_s * time_s / 3.0;
+    const Matrix6d covariance = model.coasted({kPeriod_s + time_s, kPeriod_s + time_s}, 1.0).covariance;
+    EXPECT_NEAR(covariance(0, 0), expected, 1e-9);
+  }
+}
+
+TEST_F(MotionModelTest, ExpectsWhatTheVelocityLeadsTo) {
+  model.start({0.0, 0.0}, Eigen::Isometry3d::Identity());
+  step(1, steadyTwist());
+  model.trustPrevious();
+  const FrameTimes later(0.3, 0.3);
+  const Eigen::Isometry3d ahead = expMotion(0.3 * steadyTwist());
+  EXPECT_TRUE(model.expects(ahead, Matrix6d::Zero(), later, 1.0));
+  EXPECT_FALSE(model.expects(Eigen::Translation3d(2.0, 0.0, 0.0) * ahead, Matrix6d::Zero(), later, 1.0));
+  EXPECT_FALSE(model.expects(ahead, Matrix6d::Zero(), later, 0.1)) << "nothing is known after the coasting";
 }
 
 TEST_F(MotionModelTest, KnowsWhichMotionsNoRobotCouldBegin) {

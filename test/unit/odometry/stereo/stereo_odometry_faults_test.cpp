@@ -19,17 +19,28 @@ TEST_F(StereoOdometryFaultsTest, ReportsDarknessAndRecovers) {
   StereoFrame dark = frameAt(kPeriod_s * kFrames);
   dark.left.setTo(0);
   dark.right.setTo(0);
-  for (int i = 0; i < 6; ++i) {
+  double sigma_m = 0.0;
+  for (int i = 0; i < 10; ++i) {
     dark.left_time_s = dark.right_time_s = kPeriod_s * (kFrames + i);
     const FrameResult result = vo.process(dark);
-    EXPECT_EQ(result.state, State::kLost);
+    EXPECT_EQ(result.state, State::kCoasting);
     EXPECT_NE(result.reason.find("dark"), std::string::npos) << result.reason;
-    EXPECT_EQ(result.T_start_camera.matrix(), before.T_start_camera.matrix()) << "no invented motion";
+    const Eigen::Isometry3d moved = before.T_start_camera.inverse() * result.T_start_camera;
+    EXPECT_NEAR(moved.translation().norm(), 0.4 * kPeriod_s * (i + 1), 0.02 * (i + 1))
+        << "0.4 m/s, as before";
+    EXPECT_GT(std::sqrt(result.motion_covariance(2, 2)), sigma_m);
+    sigma_m = std::sqrt(result.motion_covariance(2, 2));
   }
+  dark.left_time_s = dark.right_time_s = kPeriod_s * (kFrames + 10);
+  const Eigen::Matrix4d coasted = vo.process(dark).T_start_camera.matrix();
+  dark.left_time_s = dark.right_time_s = kPeriod_s * (kFrames + 11);
+  const FrameResult held = vo.process(dark);
+  EXPECT_EQ(held.state, State::kLost);
+  EXPECT_TRUE(held.T_start_camera.matrix().isApprox(coasted, 1e-9)) << "no invented motion";
   StereoFrame light = frameAt(kPeriod_s * (kFrames - 1));
-  light.left_time_s = light.right_time_s = kPeriod_s * (kFrames + 7);
+  light.left_time_s = light.right_time_s = kPeriod_s * (kFrames + 12);
   vo.process(light);
-  light.left_time_s = light.right_time_s = kPeriod_s * (kFrames + 8);
+  light.left_time_s = light.right_time_s = kPeriod_s * (kFrames + 13);
   EXPECT_EQ(vo.process(light).state, State::kTracking);
 }
 
@@ -112,12 +123,58 @@ TEST_F(StereoOdometryFaultsTest, SaysSoWhenSomethingThatMovesFillsTheView) {
     frame.left_time_s = frame.right_time_s = kFramePeriod_s * i;
     showBlock(block, calibration.width - kSpeed_px * (i - 4), calibration, frame);
     result = vo.process(frame);
-    if (result.state == State::kLost) ++lost;
+    if (!isMeasured(result.state)) ++lost;
     // An odometry that followed this motion would be metres away.
     EXPECT_LT(result.T_start_camera.translation().norm(), 0.25) << "frame " << i;
   }
   EXPECT_EQ(result.state, State::kTracking) << result.reason;
   EXPECT_GE(lost, 5);
+}
+
+TEST_F(StereoOdometryFaultsTest, NothingIsTrackedBeforeAThirdFrameConfirmsTheFirstMotion) {
+  StereoOdometry vo = odometry();
+  const auto frames = course();
+  EXPECT_EQ(vo.process(frames[0]).state, State::kInitialising);
+  const FrameResult second = vo.process(frames[1]);
+  EXPECT_EQ(second.state, State::kInitialising);
+  EXPECT_NE(second.reason.find("confirms"), std::string::npos) << second.reason;
+  EXPECT_EQ(vo.process(frames[2]).state, State::kTracking);
+}
+
+TEST_F(StereoOdometryFaultsTest, AFirstMotionThatTheSecondContradictsIsForgotten) {
+  // The second image was taken elsewhere: the motion to it, and away from it, is 0.5 m within 0.1 s.
+  StereoOdometry vo = odometry();
+  vo.process(frameAt(0.0));
+  StereoFrame elsewhere = frameAt(1.25);
+  elsewhere.left_time_s = elsewhere.right_time_s = 0.1;
+  EXPECT_NE(vo.process(elsewhere).state, State::kTracking);
+  const FrameResult third = vo.process(frameAt(0.2));
+  EXPECT_EQ(third.state, State::kLost);
+  EXPECT_TRUE(third.new_map);
+  EXPECT_TRUE(third.T_start_camera.translation().isZero()) << "a new map at the old pose";
+  EXPECT_EQ(vo.process(frameAt(0.3)).state, State::kInitialising);
+  const FrameResult fifth = vo.process(frameAt(0.4));
+  EXPECT_EQ(fifth.state, State::kTracking) << fifth.reason;
+  const Eigen::Isometry3d truth = test::roomDrive(0.2).inverse() * test::roomDrive(0.4);
+  EXPECT_LT((fifth.T_start_camera.translation() - truth.translation()).norm(), 0.01);
+}
+
+TEST_F(StereoOdometryFaultsTest, AMapThatRestartsIsOnProbation) {
+  StereoParams params;
+  params.max_lost_frames = 0;
+  StereoOdometry vo(params, calibration, Eigen::Matrix3d::Identity());
+  drive(vo, course());
+  // Elsewhere in the room: nothing of the old map is in view.
+  const auto turned = [&](int i) {
+    StereoFrame frame = frameAt(kPeriod_s * i + 5.0);
+    frame.left_time_s = frame.right_time_s = kPeriod_s * (kFrames + i);
+    return frame;
+  };
+  const FrameResult anew = vo.process(turned(0));
+  EXPECT_EQ(anew.state, State::kLost) << anew.reason;
+  EXPECT_TRUE(anew.new_map);
+  EXPECT_EQ(vo.process(turned(1)).state, State::kInitialising);
+  EXPECT_EQ(vo.process(turned(2)).state, State::kTracking);
 }
 
 TEST_F(StereoOdometryFaultsTest, ARightCameraKnockedAfterItsCalibrationIsLearned) {
@@ -191,7 +248,8 @@ TEST_F(StereoOdometryFaultsTest, ADarkStartIsNoKeyframe) {
   EXPECT_FALSE(result.keyframe);
   EXPECT_NE(result.reason.find("dark"), std::string::npos) << result.reason;
   EXPECT_EQ(vo.process(frameAt(0.1)).state, State::kLost);
-  EXPECT_EQ(vo.process(frameAt(0.2)).state, State::kTracking);
+  EXPECT_EQ(vo.process(frameAt(0.2)).state, State::kInitialising);
+  EXPECT_EQ(vo.process(frameAt(0.3)).state, State::kTracking);
 }
 
 TEST_F(StereoOdometryFaultsTest, RefusesImagesOfAnotherSizeOrType) {
