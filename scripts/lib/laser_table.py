@@ -15,14 +15,14 @@ def row(folder):
     with open(os.path.join(folder, 'summary.json'), encoding='utf-8') as file:
         summary = json.load(file)
     with open(os.path.join(folder, 'timing.json'), encoding='utf-8') as file:
-        timing = json.load(file)
+        timing = json.load(file)['frame_time_ms']
     five, ten = summary['segments']['5'], summary['segments']['10']
     cells = [os.path.basename(folder), figure(five['translation_percent'], 2), figure(ten['translation_percent'], 2),
              figure(ten['rotation_deg_per_m'], 3), str(summary['steps_off'])]
     for interval in ('1', '5'):
         nees = summary['nees'][interval]
         cells += [figure(nees['mean'], 1), figure(nees['inside_95_percent'], 0)]
-    return cells + [figure(timing['median_ms'], 2), figure(timing['p99_ms'], 1)]
+    return cells + [figure(timing['median'], 2), figure(timing['p99'], 1)]
 
 
 def main():
