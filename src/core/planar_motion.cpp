@@ -11,6 +11,7 @@ struct Arc {
   double across;
 };
 
+constexpr Eigen::Index kPlanarAxes[] = {0, 1, 5};  // x, y and yaw among those of a pose in space
 constexpr double kSeriesAngle_rad = 1e-4;
 
 Arc arcOf(double angle_rad) {
@@ -58,6 +59,27 @@ Eigen::Matrix3d adjointPlanar(const Eigen::Isometry2d& T_a_b) {
   result(0, 2) = T_a_b.translation().y();
   result(1, 2) = -T_a_b.translation().x();
   return result;
+}
+
+Eigen::Matrix3d inAxesOf(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = T_odom_base.linear();
+  return R * covariance * R.transpose();
+}
+
+Matrix6d spatialCovariance(const Eigen::Matrix3d& planar) {
+  constexpr double kUnknown = 1e6;
+  Matrix6d spatial = kUnknown * Matrix6d::Identity();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j) spatial(kPlanarAxes[i], kPlanarAxes[j]) = planar(i, j);
+  return spatial;
+}
+
+Eigen::Matrix3d planarCovariance(const Matrix6d& spatial) {
+  Eigen::Matrix3d planar;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j) planar(i, j) = spatial(kPlanarAxes[i], kPlanarAxes[j]);
+  return planar;
 }
 
 Eigen::Matrix3d leftJacobianPlanar(const Eigen::Vector3d& twist) {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "stereo_nav/core/lie.h"
+
 namespace stereo_nav {
 
 /// SE(2): motion in the plane. A planar twist is (forward m, left m, rotation rad). expPlanar() is the motion
@@ -22,5 +24,14 @@ Eigen::Matrix3d adjointPlanar(const Eigen::Isometry2d& T_a_b);
 
 /// exp(twist + d) = exp(leftJacobianPlanar(twist) d) exp(twist) for a small d (Sola et al., eq. 164).
 Eigen::Matrix3d leftJacobianPlanar(const Eigen::Vector3d& twist);
+
+/// The covariance of a pose, given in the axes of the base, in those of odom.
+Eigen::Matrix3d inAxesOf(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance);
+
+/// The covariance of a pose in the plane (x, y, yaw) as one of a pose in space (x, y, z, and rotations about
+/// them): nothing is said about the other three, whose variances are 1e6.
+Matrix6d spatialCovariance(const Eigen::Matrix3d& planar);
+/// The part of such a covariance that lies in the plane.
+Eigen::Matrix3d planarCovariance(const Matrix6d& spatial);
 
 }  // namespace stereo_nav

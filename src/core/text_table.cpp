@@ -57,9 +57,13 @@ std::vector<TextRow> readTextTable(const std::string& path) {
     throw InputError(path +
                      ": cannot be read: " + (file ? "it is a folder" : std::string(std::strerror(errno))));
   }
+  return readTextTable(file, path);
+}
+
+std::vector<TextRow> readTextTable(std::istream& text, const std::string& path) {
   std::vector<TextRow> rows;
   std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
+  for (int number = 1; std::getline(text, line); ++number) {
     auto fields = split(line.substr(0, line.find('#')));
     if (!fields.empty()) rows.push_back({path + ":" + std::to_string(number), std::move(fields)});
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,7 @@ struct TextRow {
 /// Reads the rows of a text file. `#` starts a comment anywhere; line ends may be of either kind. Throws
 /// InputError when the file cannot be read.
 std::vector<TextRow> readTextTable(const std::string& path);
+/// The same of a text that is read already; `path` names it in messages.
+std::vector<TextRow> readTextTable(std::istream& text, const std::string& path);
 
 }  // namespace stereo_nav

@@ -151,6 +151,27 @@ Evaluation withoutGroundTruth(const EvaluationInput& input, const Poses& T_odom_
   return evaluation;
 }
 
+/// Over the lengths that were asked for.
+void addSegments(const AssociatedPoses& associated, const EvaluationInput& input,
+                 EvaluationSummary& summary) {
+  std::vector<double> way_m = wayTo(associated.T_world_base);
+  if (!input.way_m.empty()) {
+    for (std::size_t k = 0; k < way_m.size(); ++k) way_m[k] = input.way_m.at(associated.frames[k]);
+  }
+  for (const double length_m : input.segment_lengths_m)
+    summary.segments.push_back(
+        segmentErrors(associated.T_world_base, associated.T_odom_base, way_m, length_m));
+  summary.steps_off = stepsOff(associated.T_world_base, associated.T_odom_base);
+}
+
+JsonObject toJson(const SegmentErrors& errors) {
+  JsonObject json;
+  json.add("translation_percent", errors.translation_percent);
+  json.add("rotation_deg_per_m", errors.rotation_deg_per_m);
+  json.add("pairs", errors.pairs);
+  return json;
+}
+
 JsonObject toJson(const Nees& nees) {
   JsonObject json;
   json.add("expected", nees.expected);
@@ -173,6 +194,7 @@ Evaluation evaluate(const EvaluationInput& input) {
   evaluation.summary.frames_with_ground_truth = associated.frames.size();
   addCameraErrors(associated, input.T_base_camera, evaluation);
   addBaseErrors(associated, evaluation);
+  addSegments(associated, input, evaluation.summary);
   if (input.relative_covariance) {
     for (std::size_t k = 0; k < kNeesIntervals_s.size(); ++k)
       evaluation.summary.nees[k] = neesOver(kNeesIntervals_s[k], input);
@@ -207,6 +229,11 @@ std::string toJson(const EvaluationSummary& summary) {
   json.add("rpe_translation_percent", summary.rpe_translation_percent);
   json.add("rpe_rotation_deg_per_m", summary.rpe_rotation_deg_per_m);
   json.add("segment_lengths_m", summary.segment_lengths_m);
+  JsonObject segments;
+  for (const SegmentErrors& errors : summary.segments)
+    segments.add(fmt::format("{:g}", errors.length_m), toJson(errors));
+  json.add("segments", segments);
+  json.add("steps_off", summary.steps_off);
   json.add("end_error_percent", summary.end_error_percent);
   json.add("rmse_x_m", summary.rmse_x_m);
   json.add("rmse_y_m", summary.rmse_y_m);

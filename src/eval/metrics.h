@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "stereo_nav/eval/evaluation.h"
+
 namespace stereo_nav::eval {
 
 using Poses = std::vector<Eigen::Isometry3d>;
@@ -29,6 +31,17 @@ struct RelativeError {
 /// is needed).
 RelativeError relativeError(const Poses& ground_truth, const Poses& estimate,
                             const std::vector<double>& lengths_m);
+
+/// The same over pieces of one length along `way_m`, how far the body had come at each pose: a piece from
+/// pose i ends at the first one that is `length_m` further.
+SegmentErrors segmentErrors(const Poses& ground_truth, const Poses& estimate,
+                            const std::vector<double>& way_m, double length_m);
+
+/// Way from the first pose to each pose, m.
+std::vector<double> wayTo(const Poses& poses);
+
+/// Number of steps from one pose to the next whose motion is more than 0.3 m or 10 degrees off.
+std::size_t stepsOff(const Poses& ground_truth, const Poses& estimate);
 
 /// Angle of a rotation, degrees, 0 to 180; exact for small angles, too.
 double angleDeg(const Eigen::Matrix3d& R);

@@ -29,11 +29,14 @@ RecordedPoses readRecordedPoses(const rosbag::Bag& bag, const RecordedOrder& ord
     if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) {
       poses.trajectory.push_back(toStampedPose(odometry->header.stamp, odometry->pose.pose));
       poses.body_frame = withoutSlash(odometry->child_frame_id);
+      poses.world_frame = withoutSlash(odometry->header.frame_id);
     } else if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>()) {
       poses.trajectory.push_back(toStampedPose(pose->header.stamp, pose->pose));
+      poses.world_frame = withoutSlash(pose->header.frame_id);
     } else if (const auto transform = message.instantiate<geometry_msgs::TransformStamped>()) {
       poses.trajectory.push_back({transform->header.stamp.toSec(), toIsometry(transform->transform)});
       poses.body_frame = withoutSlash(transform->child_frame_id);
+      poses.world_frame = withoutSlash(transform->header.frame_id);
     } else {
       throw InputError(
           path + ": ground truth topic " + topic + " is " + message.getDataType() +

@@ -14,6 +14,7 @@ namespace stereo_nav::ros_io {
 struct RecordedPoses {
   Trajectory trajectory;
   std::string body_frame;
+  std::string world_frame;  ///< frame that the poses are given in; empty where the messages do not name it
 };
 
 /// Reads nav_msgs/Odometry, geometry_msgs/PoseStamped or TransformStamped. Throws InputError, which begins

@@ -43,6 +43,11 @@ struct EvaluationInput {
   /// Covariance of the pose of base_link in frame `to` relative to frame `from`, axes of base_link in `to`:
   /// m, rad. Empty where nothing is known.
   std::function<Matrix6d(std::size_t from, std::size_t to)> relative_covariance;
+  /// Lengths of the pieces that EvaluationSummary::segments are taken over, m.
+  std::vector<double> segment_lengths_m;
+  /// How far base_link had come at each frame, m, where the ground truth's own way is too long since its
+  /// poses jitter; empty: the way of the ground truth.
+  std::vector<double> way_m;
   bool planar =
       false;  ///< the odometry knows x, y and yaw alone: only these are held against the covariances
 };
@@ -59,6 +64,14 @@ struct Nees {
   double rotation = kUnknown;           ///< of the rotation alone
   double inside_95_percent = kUnknown;  ///< pieces whose error lies inside the ellipsoid of 95 %, percent
   std::size_t pairs = 0;                ///< pieces
+};
+
+/// Errors of the motion over pieces of one length, from every frame on.
+struct SegmentErrors {
+  double length_m = 0.0;                                                  ///< of each piece
+  double translation_percent = std::numeric_limits<double>::quiet_NaN();  ///< mean, of the length
+  double rotation_deg_per_m = std::numeric_limits<double>::quiet_NaN();   ///< mean
+  std::size_t pairs = 0;                                                  ///< pieces
 };
 
 /// Durations over which Nees are taken, s.
@@ -81,6 +94,8 @@ struct EvaluationSummary {
   double rpe_translation_percent = kUnknown;  ///< relativeError()
   double rpe_rotation_deg_per_m = kUnknown;   ///< relativeError()
   std::vector<double> segment_lengths_m;      ///< over which relativeError() is taken
+  std::vector<SegmentErrors> segments;        ///< over EvaluationInput::segment_lengths_m
+  std::size_t steps_off = 0;  ///< from one frame to the next that are more than 0.3 m or 10 degrees off
   double end_error_percent =
       kUnknown;  ///< distance at the last frame, first poses laid together, of the path
   double rmse_x_m =

@@ -42,6 +42,10 @@ constexpr const char* kOdom = "odom";       ///< where the odometry begins
 constexpr const char* kBase = "base_link";  ///< the robot: x forward, y left, z up
 /// Frame of both cameras' images and infos: image_geometry::StereoCameraModel asserts that the two are equal.
 constexpr const char* kLeftOptical = "camera_left_optical";
+constexpr const char* kLaser = "laser";  ///< the laser, in its own axes
+/// World of ground truth that a SLAM system made from the recording itself: right over metres, but each pose
+/// jitters by a centimetre or two, so that the poses add up to a longer way than was driven.
+constexpr const char* kCorrectedMap = "corrected_map";
 constexpr const char* kImu = "imu_link";  ///< the IMU, in its own axes
 
 }  // namespace stereo_nav::ros_io::frames

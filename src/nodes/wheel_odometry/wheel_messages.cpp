@@ -20,12 +20,11 @@ nav_msgs::Odometry toOdometry(const odometry::WheelOdometryResult& result, const
   odometry.header.frame_id = odom_frame;
   odometry.child_frame_id = base_frame;
   odometry.pose.pose = tf2::toMsg(inSpace(result.T_odom_base));
-  fill(odometry::spatialCovariance(odometry::inAxesOf(result.T_odom_base, result.pose_covariance)),
-       odometry.pose.covariance);
+  fill(spatialCovariance(inAxesOf(result.T_odom_base, result.pose_covariance)), odometry.pose.covariance);
   odometry.twist.twist.linear.x = result.twist.x();
   odometry.twist.twist.linear.y = result.twist.y();
   odometry.twist.twist.angular.z = result.twist.z();
-  fill(odometry::spatialCovariance(result.twist_covariance), odometry.twist.covariance);
+  fill(spatialCovariance(result.twist_covariance), odometry.twist.covariance);
   return odometry;
 }
 

@@ -137,8 +137,7 @@ bool WheelOdometryNode::handleSetPose(SetPose::Request& request, SetPose::Respon
     return true;
   }
   const Eigen::Isometry2d T_odom_base = planarPart(pose.T_odom_base);
-  session_.setPose(T_odom_base,
-                   odometry::inAxesOf(T_odom_base.inverse(), odometry::planarCovariance(pose.covariance)));
+  session_.setPose(T_odom_base, inAxesOf(T_odom_base.inverse(), planarCovariance(pose.covariance)));
   response.success = 1;
   return true;
 }

@@ -3,12 +3,6 @@
 #include "core/planar_motion.h"
 
 namespace stereo_nav::odometry {
-namespace {
-
-constexpr Eigen::Index kPlanarAxes[] = {0, 1, 5};  // x, y and yaw among those of a pose in space
-
-}  // namespace
-
 PlanarCovariance::PlanarCovariance(std::size_t wheels, double scale_sigma)
     : scale_variance_(scale_sigma * scale_sigma) {
   with_reading_.setZero(3, static_cast<Eigen::Index>(wheels));
@@ -57,27 +51,6 @@ void PlanarCovariance::append(const WheelStep& step, const std::vector<double>& 
 
 Eigen::Matrix3d PlanarCovariance::covariance() const {
   return random_ + scale_variance_ * scale_gain_ * scale_gain_.transpose();
-}
-
-Eigen::Matrix3d inAxesOf(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() = T_odom_base.linear();
-  return R * covariance * R.transpose();
-}
-
-Matrix6d spatialCovariance(const Eigen::Matrix3d& planar) {
-  constexpr double kUnknown = 1e6;
-  Matrix6d spatial = kUnknown * Matrix6d::Identity();
-  for (Eigen::Index i = 0; i < 3; ++i)
-    for (Eigen::Index j = 0; j < 3; ++j) spatial(kPlanarAxes[i], kPlanarAxes[j]) = planar(i, j);
-  return spatial;
-}
-
-Eigen::Matrix3d planarCovariance(const Matrix6d& spatial) {
-  Eigen::Matrix3d planar;
-  for (Eigen::Index i = 0; i < 3; ++i)
-    for (Eigen::Index j = 0; j < 3; ++j) planar(i, j) = spatial(kPlanarAxes[i], kPlanarAxes[j]);
-  return planar;
 }
 
 }  // namespace stereo_nav::odometry

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "odometry/wheel/interval_motion.h"
-#include "stereo_nav/core/lie.h"
 
 namespace stereo_nav::odometry {
 
@@ -47,14 +46,5 @@ class PlanarCovariance {
   Eigen::Vector3d with_drift_ = Eigen::Vector3d::Zero();  ///< covariance of the pose and the drift
   double drift_variance_ = 0.0;                           ///< of the last interval
 };
-
-/// The covariance of a pose, given in the axes of the base, in those of odom.
-Eigen::Matrix3d inAxesOf(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance);
-
-/// The covariance of a pose in the plane (x, y, yaw) as one of a pose in space (x, y, z, and rotations about
-/// them): wheels say nothing about the other three, whose variances are 1e6.
-Matrix6d spatialCovariance(const Eigen::Matrix3d& planar);
-/// The part of such a covariance that lies in the plane.
-Eigen::Matrix3d planarCovariance(const Matrix6d& spatial);
 
 }  // namespace stereo_nav::odometry

@@ -100,7 +100,8 @@ calibration::WheelRun readRun(const Options& options, std::size_t index,
     std::fprintf(stderr, "calibrate_wheels: note: %s: %s\n", options.bags[index].c_str(), note.c_str());
   const std::string& reference = options.references[options.references.size() == 1 ? 0 : index];
   const bool is_file = std::filesystem::exists(reference);
-  return {recording.samples(), is_file ? readTum(reference) : recording.poses(reference, true)};
+  return {recording.samples(),
+          is_file ? readTum(reference) : recording.robot().poses(reference, true).trajectory};
 }
 
 void writeRig(const Options& options, const calibration::WheelCalibration& found, RigFile& rig) {

@@ -16,6 +16,7 @@
 #include "tools/common/program.h"
 #include "tools/evaluate/evaluate_options.h"
 #include "tools/evaluate/evaluate_run.h"
+#include "tools/evaluate/laser_run.h"
 #include "tools/evaluate/wheel_run.h"
 
 namespace stereo_nav::tools {
@@ -82,6 +83,13 @@ void printConsistency(const eval::EvaluationSummary& summary) {
   }
 }
 
+void printSegments(const eval::EvaluationSummary& summary) {
+  for (const eval::SegmentErrors& errors : summary.segments) {
+    std::printf("  errors over %-16g %.4g %%, %.4g deg/m (%zu pieces)\n", errors.length_m,
+                errors.translation_percent, errors.rotation_deg_per_m, errors.pairs);
+  }
+}
+
 void printSummary(const eval::Evaluation& evaluation, const eval::TimingSummary& timing, std::size_t unpaired,
                   EvaluatedMethod method) {
   const eval::EvaluationSummary& summary = evaluation.summary;
@@ -92,9 +100,18 @@ void printSummary(const eval::Evaluation& evaluation, const eval::TimingSummary&
     std::printf("  %-28s %zu (no partner within half a period)\n", "images without a pair", unpaired);
   printValue("path", summary.path_length_m, "m");
   printErrors(summary);
+  printSegments(summary);
   if (method == EvaluatedMethod::kWheel) {
     printConsistency(summary);
     std::printf("  %-28s %.2f us median\n", "odometry per reading", 1e3 * timing.median_ms);
+    return;
+  }
+  if (method == EvaluatedMethod::kLaser) {
+    printConsistency(summary);
+    std::printf("  %-28s %.1f points, %.1f on the map\n", "mean per scan", summary.features_mean,
+                summary.inliers_mean);
+    std::printf("  %-28s %.3f ms median, %.3f ms p99\n", "odometry per scan", timing.median_ms,
+                timing.p99_ms);
     return;
   }
   std::printf("  %-28s %.1f features, %.1f inliers\n", "mean per frame", summary.features_mean,
@@ -134,8 +151,15 @@ int run(int argc, char** argv) {
   const auto options = parseEvaluateOptions(argc, argv);
   if (!options) return 0;
   { const AtomicFile writable(options->output + "/summary.json"); }  // before the work, not after it
-  const bool wheel = options->method == EvaluatedMethod::kWheel;
-  return writeResults(*options, wheel ? runWheelEvaluation(*options) : runEvaluation(*options, showProgress));
+  switch (options->method) {
+    case EvaluatedMethod::kWheel:
+      return writeResults(*options, runWheelEvaluation(*options));
+    case EvaluatedMethod::kLaser:
+      return writeResults(*options, runLaserEvaluation(*options));
+    case EvaluatedMethod::kVisual:
+      break;
+  }
+  return writeResults(*options, runEvaluation(*options, showProgress));
 }
 
 }  // namespace

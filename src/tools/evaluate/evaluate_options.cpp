@@ -1,7 +1,11 @@
 #include "tools/evaluate/evaluate_options.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <sstream>
+#include <utility>
 
 #include "ros/package_files.h"
 #include "stereo_nav/core/input_error.h"
@@ -26,19 +30,57 @@ void checkValues(const EvaluateOptions& options) {
   if (options.repeat < 1) throw InputError("--repeat must be 1 or more");
 }
 
+std::vector<double> lengthsOf(const std::string& text) {
+  std::vector<double> lengths_m;
+  std::istringstream list(text);
+  for (std::string item; std::getline(list, item, ',');) {
+    char* end = nullptr;
+    const double length_m = std::strtod(item.c_str(), &end);
+    if (item.empty() || *end != '\0' || !(length_m > 0.0 && std::isfinite(length_m)))
+      throw InputError("--segments must be lengths in m above 0, with commas between them, not '" + text +
+                       "'");
+    lengths_m.push_back(length_m);
+  }
+  return lengths_m;
+}
+
 void readMethod(const po::variables_map& values, EvaluateOptions& options) {
   const auto method = values["method"].as<std::string>();
-  if (method != "visual" && method != "wheel")
-    throw InputError("--method must be visual or wheel, not '" + method + "'");
-  const bool wheel = method == "wheel";
-  options.method = wheel ? EvaluatedMethod::kWheel : EvaluatedMethod::kVisual;
+  const std::map<std::string, std::pair<EvaluatedMethod, std::string>> methods = {
+      {"visual", {EvaluatedMethod::kVisual, "vo.yaml"}},
+      {"wheel", {EvaluatedMethod::kWheel, "wheel.yaml"}},
+      {"laser", {EvaluatedMethod::kLaser, "laser_odometry.yaml"}}};
+  const auto chosen = methods.find(method);
+  if (chosen == methods.end())
+    throw InputError("--method must be visual, wheel or laser, not '" + method + "'");
+  options.method = chosen->second.first;
+  const bool wheel = options.method == EvaluatedMethod::kWheel;
   if (values.count("rig") != 0) options.rig = values["rig"].as<std::string>();
   if (wheel && options.rig.empty())
     throw InputError("--method wheel needs --rig FILE, a rig file with the section drive");
-  const std::string config = values.count("config") != 0 ? values["config"].as<std::string>()
-                             : wheel                     ? "wheel.yaml"
-                                                         : "vo.yaml";
-  options.config = ros_io::configFile(config);
+  if (options.no_prior && options.method != EvaluatedMethod::kLaser)
+    throw InputError("--no-prior is for --method laser: the other methods take no wheels for a prior");
+  options.config = ros_io::configFile(values.count("config") != 0 ? values["config"].as<std::string>()
+                                                                  : chosen->second.second);
+}
+
+void readValues(const po::variables_map& values, EvaluateOptions& options) {
+  readMethod(values, options);
+  if (values.count("segments") != 0)
+    options.segment_lengths_m = lengthsOf(values["segments"].as<std::string>());
+  options.disparity_config = ros_io::configFile(values["disparity-config"].as<std::string>());
+  if (values.count("disparity-from") != 0)
+    options.disparity_from = values["disparity-from"].as<std::string>();
+  if (values.count("ground-truth") != 0) options.ground_truth = values["ground-truth"].as<std::string>();
+  if (values.count("ground-truth-frame") != 0) {
+    options.ground_truth_frame = values["ground-truth-frame"].as<std::string>();
+  }
+  if (values.count("namespace") != 0) options.part.rig = values["namespace"].as<std::string>();
+  if (values.count("rolling-shutter-ms") != 0)
+    options.part.rolling_shutter_s = 1e-3 * values["rolling-shutter-ms"].as<double>();
+  options.output = values.count("output") != 0
+                       ? values["output"].as<std::string>()
+                       : std::filesystem::path(options.bag).stem().string() + "_evaluation";
 }
 
 po::options_description describeOptions(EvaluateOptions& options) {
@@ -48,13 +90,14 @@ po::options_description describeOptions(EvaluateOptions& options) {
   visible.add_options()        //
       ("help,h", "this text")  //
       ("method", po::value<std::string>()->default_value("visual"),
-       "visual: the odometry of the images; wheel: that of wheel_ticks, with imu/data where the bag has it")  //
+       "visual: the odometry of the images; wheel: that of wheel_ticks, with imu/data where the bag has it; laser: that "
+       "of scan, with wheel/odom and imu/data where the bag has them")  //
       ("rig", po::value<std::string>(),
        "rig file: for --method wheel its section drive, which describes the wheels; for visual its section uncertainty, "
        "which says how good the calibration is. The cameras' mounting is read from the bag.")  //
       ("config", po::value<std::string>(),
-       "parameters of the odometry: a path, or a file of the package's config folder (default: vo.yaml, or "
-       "wheel.yaml for wheels)")  //
+       "parameters of the odometry: a path, or a file of the package's config folder (default: vo.yaml, "
+       "wheel.yaml or laser_odometry.yaml)")  //
       ("disparity-config", po::value<std::string>()->default_value("disparity.yaml"),
        "parameters of the disparity map, where the odometry uses one; looked up in the same way")  //
       ("disparity-from", po::value<std::string>(),
@@ -79,6 +122,10 @@ po::options_description describeOptions(EvaluateOptions& options) {
        "the robot drives on the plane of its start: height, roll and pitch are held there")  //
       ("no-imu", po::bool_switch(&options.no_imu),
        "the path of vision alone, as if the recording held no IMU")  //
+      ("no-prior", po::bool_switch(&options.no_prior),
+       "the path of the laser alone, as if the recording held neither wheels nor IMU")  //
+      ("segments", po::value<std::string>(),
+       "lengths in m of pieces that the errors are taken over as well, e.g. 5,10; they go to summary.json")  //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");
   return visible;
 }
@@ -92,20 +139,7 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
   if (!parseCommandLine(argc, argv, visible, "bag", values)) return std::nullopt;
   if (values.count("bag") == 0) throw InputError("no BAG given; see evaluate --help");
   options.bag = values["bag"].as<std::string>();
-  readMethod(values, options);
-  options.disparity_config = ros_io::configFile(values["disparity-config"].as<std::string>());
-  if (values.count("disparity-from") != 0)
-    options.disparity_from = values["disparity-from"].as<std::string>();
-  if (values.count("ground-truth") != 0) options.ground_truth = values["ground-truth"].as<std::string>();
-  if (values.count("ground-truth-frame") != 0) {
-    options.ground_truth_frame = values["ground-truth-frame"].as<std::string>();
-  }
-  if (values.count("namespace") != 0) options.part.rig = values["namespace"].as<std::string>();
-  if (values.count("rolling-shutter-ms") != 0)
-    options.part.rolling_shutter_s = 1e-3 * values["rolling-shutter-ms"].as<double>();
-  options.output = values.count("output") != 0
-                       ? values["output"].as<std::string>()
-                       : std::filesystem::path(options.bag).stem().string() + "_evaluation";
+  readValues(values, options);
   checkValues(options);
   return options;
 }

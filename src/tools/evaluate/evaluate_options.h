@@ -2,13 +2,14 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "stereo_nav/ros/recording.h"
 
 namespace stereo_nav::tools {
 
 /// What is run on the recording.
-enum class EvaluatedMethod { kVisual, kWheel };
+enum class EvaluatedMethod { kVisual, kWheel, kLaser };
 
 struct EvaluateOptions {
   std::string bag;
@@ -25,8 +26,10 @@ struct EvaluateOptions {
   double truth_sigma_deg = 0.0;  ///< likewise of its attitudes
   std::string output;            ///< folder
   ros_io::RecordingOptions part;
-  bool on_floor = false;  ///< the base stays on the floor on which it starts
-  bool no_imu = false;    ///< by vision alone, though the recording holds an IMU
+  bool on_floor = false;                  ///< the base stays on the floor on which it starts
+  std::vector<double> segment_lengths_m;  ///< of the pieces that errors are taken over besides the usual ones
+  bool no_prior = false;                  ///< by the laser alone, though the recording holds wheels or an IMU
+  bool no_imu = false;                    ///< by vision alone, though the recording holds an IMU
   int repeat = 1;
 };
 

@@ -221,6 +221,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.stretches = recording.stretches();
   run.input.notes.insert(run.input.notes.end(), processing.notes().begin(), processing.notes().end());
   run.input.ground_truth = groundTruthOfBase(options, recording);
+  run.input.segment_lengths_m = options.segment_lengths_m;
   run.input.truth_sigma_m = options.truth_sigma_m;
   run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
 

@@ -7,23 +7,12 @@
 #include "core/planar_motion.h"
 #include "odometry/wheel/wheel_odometry.h"
 #include "ros/wheel_recording.h"
-#include "stereo_nav/core/input_error.h"
-#include "stereo_nav/ros/topics.h"
+#include "tools/evaluate/truth_of_base.h"
 
 namespace stereo_nav::tools {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-Trajectory truthOfBase(const EvaluateOptions& options, const ros_io::WheelRecording& recording) {
-  if (!options.ground_truth || !std::filesystem::exists(*options.ground_truth)) {
-    return recording.poses(options.ground_truth.value_or(ros_io::topics::kGroundTruth),
-                           options.ground_truth.has_value());
-  }
-  const Trajectory truth = readTum(*options.ground_truth);
-  const std::string frame = options.ground_truth_frame.value_or(ros_io::frames::kBase);
-  return frame == ros_io::frames::kBase ? truth : ofOtherBody(truth, recording.T_base(frame).inverse());
-}
 
 /// What the intervals told of their uncertainty, for the motion between any two readings.
 class Steps {
@@ -36,7 +25,7 @@ class Steps {
   Matrix6d operator()(std::size_t from, std::size_t to) const {
     odometry::PlanarCovariance covariance(reading_variance_m2_.size(), scale_sigma_);
     for (std::size_t i = from + 1; i <= to; ++i) covariance.append(steps_[i], reading_variance_m2_);
-    return odometry::spatialCovariance(covariance.covariance());
+    return spatialCovariance(covariance.covariance());
   }
 
  private:
@@ -61,8 +50,7 @@ WheelPass pass(const odometry::WheelOdometryParams& params, const ros_io::WheelR
     frame.timing.frame_ms = std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
     frame.time_s = estimate.time_s;
     frame.T_odom_base = inSpace(estimate.T_odom_base);
-    frame.pose_covariance =
-        odometry::spatialCovariance(odometry::inAxesOf(estimate.T_odom_base, estimate.pose_covariance));
+    frame.pose_covariance = spatialCovariance(inAxesOf(estimate.T_odom_base, estimate.pose_covariance));
     result.frames.push_back(frame);
     result.steps.add(odometry.lastStep());
     if (result.problem.empty()) result.problem = estimate.problem;
@@ -86,7 +74,8 @@ EvaluationRun runWheelEvaluation(const EvaluateOptions& options) {
   if (!recording.imuSetAside().empty())
     run.input.notes.push_back("the IMU is set aside, the yaw is that of the wheels: " +
                               recording.imuSetAside());
-  run.input.ground_truth = truthOfBase(options, recording);
+  run.input.ground_truth = truthOfBase(options, recording.robot()).trajectory;
+  run.input.segment_lengths_m = options.segment_lengths_m;
   run.input.truth_sigma_m = options.truth_sigma_m;
   run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
   for (int repetition = 0; repetition < options.repeat; ++repetition) {

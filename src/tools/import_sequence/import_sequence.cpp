@@ -17,6 +17,7 @@
 #include "tools/common/command_line.h"
 #include "tools/common/program.h"
 #include "tools/import_sequence/derived_sequence.h"
+#include "tools/import_sequence/laser_sequence.h"
 #include "tools/import_sequence/sequence_bag.h"
 #include "tools/import_sequence/sixteen_bits.h"
 #include "tools/import_sequence/wheel_sequence.h"
@@ -27,8 +28,8 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr const char* kUsage =
-    "usage: import_sequence --format euroc|kitti|kitti_raw|images|optiodom DIR --output BAG [options]\n"
-    "Turns a public recording into a bag with the topics of a stereo rig, or of wheels.\n\n"
+    "usage: import_sequence --format euroc|kitti|kitti_raw|images|optiodom|carmen DIR --output BAG [options]\n"
+    "Turns a public recording into a bag with the topics of a stereo rig, of wheels, or of a laser.\n\n"
     "  euroc   DIR/cam0, cam1 (data.csv, data/, sensor.yaml), imu0, state_groundtruth_estimate0;\n"
     "          raw images, rectified downstream by the camera_infos written\n"
     "  kitti   DIR/image_0, image_1, calib.txt, times.txt, poses.txt (KITTI odometry); time 0 becomes\n"
@@ -42,11 +43,14 @@ constexpr const char* kUsage =
     "intrinsics.yml and\n"
     "          extrinsics.yml (OpenCV)\n"
     "  optiodom  DIR = a run, SET_run-NN.csv, with SET_metadata.csv beside it: pulses of three omni wheels (omni3)\n"
-    "          or of two on one axle (diff), and motion capture; time 0 becomes 1000 s; of the options --rig alone applies\n\n"
+    "          or of two on one axle (diff), and motion capture; time 0 becomes 1000 s; of the options --rig alone applies\n"
+    "  carmen  DIR = a log (may be gzipped) with FLASER and ODOM lines, whose FLASER poses a SLAM system corrected:\n"
+    "          scan, wheel/odom and, as ground truth, the corrected poses; none of the options applies\n\n"
     "base_link is the IMU (the default for euroc and kitti_raw) or the left camera with x forward, y left, z up (REP-103;\n"
     "the default for the others). The ground truth gives poses of base_link.\n\nOptions";
 
 constexpr const char* kOptiodom = "optiodom";
+constexpr const char* kCarmen = "carmen";
 
 std::atomic<bool> interrupted{false};
 
@@ -80,10 +84,15 @@ po::options_description describeOptions(Arguments& arguments, double& right_stam
   return options;
 }
 
+/// Whether DIR is a file, not a folder.
+bool isOneFile(const std::string& format) {
+  return format == kOptiodom || format == kCarmen;
+}
+
 void checkArguments(const Arguments& arguments) {
-  const std::set<std::string> formats = {"euroc", "kitti", "kitti_raw", "images", "optiodom"};
+  const std::set<std::string> formats = {"euroc", "kitti", "kitti_raw", "images", kOptiodom, kCarmen};
   if (formats.count(arguments.format) == 0) {
-    throw InputError("--format must be euroc, kitti, kitti_raw, images or optiodom" +
+    throw InputError("--format must be euroc, kitti, kitti_raw, images, optiodom or carmen" +
                      (arguments.format.empty() ? std::string() : ", not '" + arguments.format + "'"));
   }
   if (arguments.folder.empty()) throw InputError("no DIR given");
@@ -96,7 +105,7 @@ void checkArguments(const Arguments& arguments) {
   }
   if (!arguments.rig.empty() && arguments.format != kOptiodom)
     throw InputError("--rig is for --format optiodom: the other layouts know no wheels");
-  if (arguments.format != kOptiodom && !std::filesystem::is_directory(arguments.folder)) {
+  if (!isOneFile(arguments.format) && !std::filesystem::is_directory(arguments.folder)) {
     throw InputError(arguments.folder + ": is no folder; give the one that holds the recording");
   }
 }
@@ -163,11 +172,26 @@ int importWheels(const Arguments& arguments) {
   return 0;
 }
 
+int importLaser(const Arguments& arguments) {
+  const LaserSequence sequence = readCarmen(arguments.folder);
+  if (sequence.repeated > 0) {
+    std::fprintf(
+        stderr,
+        "import_sequence: note: %zu scans whose stamp is not later than the one before are left out\n",
+        sequence.repeated);
+  }
+  writeLaserBag(sequence, arguments.output);
+  std::printf("%s: %zu scans, %zu wheel poses, %.1f m by the wheels\n", arguments.output.c_str(),
+              sequence.scans.size(), sequence.wheels.size(), pathLength(sequence.wheels));
+  return 0;
+}
+
 int run(int argc, char** argv) {
   Arguments arguments;
   if (!parse(argc, argv, arguments)) return 0;
   { const AtomicFile writable(arguments.output); }  // before the work, not after it
   if (arguments.format == kOptiodom) return importWheels(arguments);
+  if (arguments.format == kCarmen) return importLaser(arguments);
   Sequence sequence = readSequence(arguments);
   checkCalibration(arguments, sequence);
   useFullRange(sequence);

@@ -1,26 +1,11 @@
-#include <nav_msgs/Odometry.h>
-#include <tf2_eigen/tf2_eigen.h>
-
 #include "ros/bag_file.h"
 #include "stereo_nav/WheelTicks.h"
 #include "stereo_nav/ros/topics.h"
+#include "tools/import_sequence/bag_header.h"
 #include "tools/import_sequence/wheel_sequence.h"
 
 namespace stereo_nav::tools {
 namespace {
-
-ros::Time stampOf(double time_s) {
-  ros::Time stamp;
-  return stamp.fromNSec(static_cast<std::uint64_t>(std::llround(time_s * 1e9)));
-}
-
-std_msgs::Header headerOf(double time_s, const char* frame_id, std::size_t number) {
-  std_msgs::Header header;
-  header.stamp = stampOf(time_s);
-  header.frame_id = frame_id;
-  header.seq = static_cast<std::uint32_t>(number);
-  return header;
-}
 
 WheelTicks ticksOf(const WheelSequence& sequence, std::size_t index) {
   WheelTicks ticks;
@@ -30,14 +15,6 @@ WheelTicks ticksOf(const WheelSequence& sequence, std::size_t index) {
   return ticks;
 }
 
-nav_msgs::Odometry truthOf(const WheelSequence& sequence, std::size_t index) {
-  nav_msgs::Odometry odometry;
-  odometry.header = headerOf(sequence.ground_truth[index].time_s, "world", index);
-  odometry.child_frame_id = ros_io::frames::kBase;
-  odometry.pose.pose = tf2::toMsg(sequence.ground_truth[index].T_world_body);
-  return odometry;
-}
-
 }  // namespace
 
 void writeWheelBag(const WheelSequence& sequence, const std::string& path) {
@@ -45,7 +22,7 @@ void writeWheelBag(const WheelSequence& sequence, const std::string& path) {
   for (std::size_t i = 0; i < sequence.readings.size(); ++i) {
     const WheelTicks ticks = ticksOf(sequence, i);
     bag.write(ros_io::topics::kWheelTicks, ticks.header.stamp, ticks);
-    const nav_msgs::Odometry truth = truthOf(sequence, i);
+    const nav_msgs::Odometry truth = odometryOf(sequence.ground_truth[i], "world", i);
     bag.write(ros_io::topics::kGroundTruth, truth.header.stamp, truth);
   }
   bag.commit();

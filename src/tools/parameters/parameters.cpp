@@ -16,6 +16,7 @@
 #include "nodes/teleop/key_driver.h"
 #include "nodes/visual_odometry/visual_odometry_params.h"
 #include "nodes/wheel_odometry/wheel_odometry_node_params.h"
+#include "odometry/laser/laser_params.h"
 #include "ros/base_bridge_params.h"
 #include "ros/capture_setup.h"
 #include "ros/stereo_processing.h"
@@ -127,6 +128,9 @@ void printOthers() {
       "Its own, and then those of the odometry: `config/wheel.yaml` and files like it (`~config`), also read by "
       "`evaluate --method wheel` and `calibrate_wheels`. The wheels are the section `drive` of `~rig`.");
   printTable(nodes::WheelOdometryNodeParams());
+  printHeading("## Laser odometry",
+               "`config/laser_odometry.yaml` and files like it, read by `evaluate --method laser`.");
+  printTable(odometry::LaserParams());
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
                "file.");

@@ -1,5 +1,7 @@
 #include "eval/metrics.h"
 
+#include <cmath>
+
 #include "support/trajectories.h"
 
 namespace stereo_nav::eval {
@@ -66,6 +68,28 @@ TEST(RelativeError, unknownWhereNothingFits) {
   EXPECT_TRUE(std::isnan(relativeError(straight(3, 1.0), straight(3, 1.0), {5.0}).translation_percent));
   EXPECT_TRUE(std::isnan(relativeError(straight(3, 1.0), straight(3, 1.0), {}).rotation_deg_per_m));
   EXPECT_THROW(relativeError(straight(3, 1.0), straight(2, 1.0), {1.0}), std::invalid_argument);
+}
+
+TEST(SegmentErrors, areTakenAlongTheGivenWay) {
+  const SegmentErrors by_truth =
+      segmentErrors(straight(11, 1.0), straight(11, 1.1), wayTo(straight(11, 1.0)), 2.0);
+  EXPECT_NEAR(by_truth.translation_percent, 10.0, 1e-9);
+  EXPECT_EQ(by_truth.pairs, 9u);
+  // Wheels that count half: a piece of 2 m is four steps.
+  const SegmentErrors by_wheels =
+      segmentErrors(straight(11, 1.0), straight(11, 1.1), wayTo(straight(11, 0.5)), 2.0);
+  EXPECT_NEAR(by_wheels.translation_percent, 20.0, 1e-9);
+  EXPECT_EQ(by_wheels.pairs, 7u);
+  const SegmentErrors none = segmentErrors(straight(3, 1.0), straight(3, 1.0), wayTo(straight(3, 1.0)), 5.0);
+  EXPECT_EQ(none.pairs, 0u);
+  EXPECT_TRUE(std::isnan(none.translation_percent));
+}
+
+TEST(StepsOff, countsJumps) {
+  Poses estimate = straight(6, 1.0);
+  EXPECT_EQ(stepsOff(straight(6, 1.0), estimate), 0u);
+  estimate[3].translation().y() += 0.4;  // there and back again
+  EXPECT_EQ(stepsOff(straight(6, 1.0), estimate), 2u);
 }
 
 TEST(AngleDeg, smallAndLargeAngles) {

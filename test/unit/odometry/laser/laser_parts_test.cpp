@@ -1,0 +1,123 @@
+// Scans, walls and what a scan tells, each by itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "odometry/laser/correlative_search.h"
+#include "odometry/laser/laser_scan.h"
+#include "odometry/laser/line_map.h"
+#include "odometry/laser/told_directions.h"
+#include "walled_world.h"
+
+namespace stereo_nav::odometry {
+namespace {
+
+TEST(LaserScan, beamsWithoutAReturnAreTold) {
+  LaserScan scan;
+  scan.angle_increment_rad = 0.5 * kPi;
+  scan.time_increment_s = 0.01;
+  scan.range_min_m = 0.1;
+  scan.range_max_m = 10.0;
+  const float infinity = std::numeric_limits<float>::infinity();
+  scan.ranges_m = {2.0F, infinity, -infinity, std::nanf(""), 3.0F, 0.05F, 11.0F, 0.0F};
+  const LaserPoints points = pointsOf(scan, Eigen::Isometry3d::Identity());
+  ASSERT_EQ(points.points.size(), 2u);
+  EXPECT_EQ(points.invalid, 1u);
+  EXPECT_EQ(points.without_return, 5u);
+  EXPECT_LT((points.points[0].p_base - Eigen::Vector2d(2.0, 0.0)).norm(), 1e-9);
+  EXPECT_LT((points.points[1].p_base - Eigen::Vector2d(3.0, 0.0)).norm(), 1e-9);
+  EXPECT_NEAR(points.points[1].after_s, 0.04, 1e-12);
+}
+
+TEST(LaserScan, aLaserUpsideDownSeesTheOtherSide) {
+  LaserScan scan;
+  scan.angle_min_rad = 0.5 * kPi;
+  scan.angle_increment_rad = -0.1;
+  scan.range_max_m = 10.0;
+  scan.ranges_m = {2.0F};
+  Eigen::Isometry3d T_base_laser(Eigen::Translation3d(0.3, 0.0, 0.2));
+  T_base_laser.rotate(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitX()));
+  const LaserPoints points = pointsOf(scan, T_base_laser);
+  ASSERT_EQ(points.points.size(), 1u);
+  EXPECT_LT((points.points[0].p_base - Eigen::Vector2d(0.3, -2.0)).norm(), 1e-9);
+}
+
+TEST(LineMap, findsAWallAndForgetsIt) {
+  LineMap map(0.1, 2);
+  std::vector<Eigen::Vector2d> wall, other;
+  for (int i = 0; i < 200; ++i) {
+    wall.emplace_back(0.02 * i, 1.0 + 0.01 * i);  // rises by one in two
+    other.emplace_back(-5.0, 0.02 * i);
+  }
+  map.add(wall);
+  const MapLine* line = map.lineAt({2.0, 2.03}, 0);
+  ASSERT_NE(line, nullptr);
+  EXPECT_NEAR(std::abs(line->normal.dot(Eigen::Vector2d(1.0, -2.0).normalized())), 1.0, 1e-6);
+  EXPECT_NEAR(line->normal.dot(Eigen::Vector2d(2.0, 2.0) - line->centre), 0.0, 1e-6);
+  EXPECT_EQ(map.lineAt({2.0, 5.0}, 0), nullptr);
+  map.add(other);
+  map.add(other);  // two scans are kept: the wall is gone
+  EXPECT_EQ(map.lineAt({2.0, 2.03}, 0), nullptr);
+  EXPECT_NE(map.lineAt({-5.0, 2.0}, 0), nullptr);
+}
+
+TEST(LineMap, aCornerIsNoWall) {
+  LineMap map(0.1, 2);
+  std::vector<Eigen::Vector2d> corner;
+  for (int i = 0; i < 40; ++i) {
+    corner.emplace_back(0.025 * i, 0.0);
+    corner.emplace_back(0.0, 0.025 * i);
+  }
+  map.add(corner);
+  EXPECT_EQ(map.lineAt({0.05, 0.05}, 0), nullptr);
+  EXPECT_NE(map.lineAt({0.6, 0.01}, 0), nullptr);
+}
+
+TEST(ToldDirections, aCorridorTellsAllButItsDirection) {
+  ScanInformation information;
+  information.weight = 100.0;
+  information.lever_m = 2.0;
+  // Walls along a direction of 30 degrees: their normals lie across it.
+  const Eigen::Vector3d across(-0.5, std::sqrt(0.75), 0.0);
+  information.told = 100.0 * across * across.transpose();
+  information.told(2, 2) = 100.0 * 4.0;
+  const ToldDirections directions = toldDirections(information, 0.01);
+  ASSERT_EQ(directions.untold.size(), 1u);
+  EXPECT_NEAR(std::abs(directions.untold[0].x()), std::sqrt(0.75), 1e-6);
+  EXPECT_NEAR(std::abs(directions.untold[0].y()), 0.5, 1e-6);
+  const Eigen::Vector3d along(std::sqrt(0.75), 0.5, 0.0);
+  EXPECT_LT((directions.projection * along).norm(), 1e-6);
+  EXPECT_LT((directions.projection * across - across).norm(), 1e-6);
+  EXPECT_LT((directions.projection * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitZ()).norm(), 1e-6);
+}
+
+TEST(ToldDirections, whatNormalsFeignIsNotTold) {
+  ScanInformation information;
+  information.weight = 100.0;
+  information.told = Eigen::Vector3d(3.0, 97.0, 50.0).asDiagonal();
+  EXPECT_TRUE(toldDirections(information, 0.01).untold.empty());
+  information.feigned = Eigen::Vector3d(2.9, 0.0, 0.0).asDiagonal();
+  EXPECT_EQ(toldDirections(information, 0.01).untold.size(), 1u);
+}
+
+TEST(CorrelativeSearch, findsAScanThatIsFarOff) {
+  const WalledWorld room = WalledWorld::room(7.0, 5.0);
+  TurningLaser laser{room, [](double) { return Eigen::Vector3d::Zero(); }};
+  std::vector<Eigen::Vector2d> points;
+  for (const LaserPoint& point : pointsOf(laser.scan(0.0), Eigen::Isometry3d::Identity()).points)
+    points.push_back(point.p_base);
+  LineMap map(0.1, 5);
+  map.add(points);
+  PlanarState prior;
+  prior.p_odom = {0.5, -0.3};
+  prior.yaw_rad = 0.3;
+  const Eigen::Matrix3d vague = Eigen::Vector3d(0.25, 0.25, 0.04).asDiagonal();
+  const Eigen::Vector3d shift = searchShift(points, map, prior, vague);
+  EXPECT_NEAR(shift.x(), -0.5, kSearchStep_m);
+  EXPECT_NEAR(shift.y(), 0.3, kSearchStep_m);
+  EXPECT_NEAR(shift.z(), -0.3, 2.0 * kSearchStep_rad);
+}
+
+}  // namespace
+}  // namespace stereo_nav::odometry
