@@ -9,10 +9,6 @@ namespace {
 /// A witness that has found no contradiction for so long is dismissed.
 constexpr double kWitness_s = 8.0;
 
-bool isTracked(const FrameResult& result) {
-  return result.state == State::kTracking;
-}
-
 /// The image itself where it holds its memory; a copy where the memory is somebody else's, such as a
 /// message's.
 cv::Mat kept(const cv::Mat& image) {
@@ -40,7 +36,7 @@ FrameResult WatchedOdometry::process(const StereoFrame& frame) {
   if (!imu_problem_.empty()) result.T_start_camera = T_start_first_ * result.T_start_camera;
   if (!imu_problem_.empty() || imu_.empty()) return result;
   const bool has_previous = !previous_.left.empty();
-  if (has_previous && isTracked(result) && isMeasured(previous_state_))
+  if (has_previous && isMeasured(result.state) && isMeasured(previous_state_))
     contradiction_.add(previous_.left_time_s, frame.left_time_s,
                        result.T_previous_current.linear().transpose());
   const bool is_suspicious = !isMeasured(result.state) || contradiction_.isSuspected(imu_);
@@ -91,7 +87,7 @@ FrameResult WatchedOdometry::takeOver(const StereoFrame& frame, FrameResult seen
 
 std::optional<FrameResult> WatchedOdometry::askWitness(const StereoFrame& frame) {
   FrameResult result = witness_->odometry->process(frame);
-  if (isTracked(result)) {
+  if (isMeasured(result.state)) {
     witness_->contradiction.add(previous_.left_time_s, frame.left_time_s,
                                 result.T_previous_current.linear().transpose());
   }

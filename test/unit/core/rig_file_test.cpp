@@ -141,8 +141,8 @@ TEST(RigFile, NumbersAreReplacedInsertedAndAppended) {
 
 TEST(RigFile, UnknownSectionsAndNamesAreRefused) {
   EXPECT_EQ(messageOf([] { RigFile::parse("camera: {}", "rig.yaml"); }),
-            "rig.yaml: unknown section camera; a rig has: cameras | imu | mounting | disparity | drive | "
-            "wheel_odometry");
+            "rig.yaml: unknown section camera; a rig has: cameras | imu | laser | range_finders | mounting | "
+            "disparity | drive | wheel_odometry | uncertainty | base");
   EXPECT_NE(messageOf([] {
               RigFile::parse("mounting: {laser: {}}", "rig.yaml").mounting();
             }).find("rig.yaml: mounting: unknown parameter laser"),

@@ -153,6 +153,8 @@ TEST(EvaluationSummary, fileHasFixedKeysAndRoundTripNumbers) {
             "  \"rpe_translation_percent\": null,\n"
             "  \"rpe_rotation_deg_per_m\": null,\n"
             "  \"segment_lengths_m\": [0.5,1.0],\n"
+            "  \"segments\": {},\n"
+            "  \"steps_off\": 0,\n"
             "  \"end_error_percent\": null,\n"
             "  \"rmse_x_m\": null,\n"
             "  \"rmse_y_m\": null,\n"

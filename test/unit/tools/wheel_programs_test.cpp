@@ -128,8 +128,11 @@ TEST_F(WheelPrograms, whatCannotBeUsedIsNamed) {
   folder_.write("empty.yaml", "imu: {}\n");
   const std::string bag = folder_ / "a.bag", rig = " --rig " + (folder_ / "rig.yaml");
   expectRefusal(EVALUATE, bag + " --method wheel", 2, "--method wheel needs --rig FILE");
-  expectRefusal(EVALUATE, bag + rig, 2, "--rig is for --method wheel");
-  expectRefusal(EVALUATE, bag + " --method laser", 2, "must be visual or wheel, not 'laser'");
+  expectRefusal(EVALUATE, bag + rig, 2, "no topic camera/left/image_raw");
+  expectRefusal(EVALUATE, bag + " --method laser", 2, "no topic scan");
+  expectRefusal(EVALUATE, bag + " --method sonar", 2, "must be visual, wheel or laser, not 'sonar'");
+  expectRefusal(EVALUATE, bag + " --no-prior", 2, "--no-prior is for --method laser");
+  expectRefusal(EVALUATE, bag + " --method wheel --segments 5,x" + rig, 2, "--segments must be lengths in m");
   expectRefusal(EVALUATE, bag + " --method wheel --rig " + (folder_ / "empty.yaml"), 2,
                 "empty.yaml: drive is missing");
   expectRefusal(EVALUATE, (folder_ / "none.bag") + " --method wheel" + rig, 2, "none.bag: cannot be read");
