@@ -49,11 +49,11 @@ TEST(Operation, AGoneMasterEndsTheNodesAndTheNextOneFindsThemAgain) {
   BackgroundCommand robot(kRobot + "nodelet:=false");
   ASSERT_TRUE(comes("/odom")) << robot.output();
   master.crash();
-  // Each of the package's three processes says so and ends with a status that is not 0; roslaunch starts it
+  // Each of the package's four processes says so and ends with a status that is not 0; roslaunch starts it
   // again.
-  EXPECT_TRUE(robot.waitForOutput("has died [pid", kLongWait_s, 3)) << robot.output();
-  EXPECT_EQ(robot.count("has gone: its port refuses connections"), 3) << robot.output();
-  EXPECT_EQ(robot.count("exit code 3"), 3) << robot.output();
+  EXPECT_TRUE(robot.waitForOutput("has died [pid", kLongWait_s, 4)) << robot.output();
+  EXPECT_EQ(robot.count("has gone: its port refuses connections"), 4) << robot.output();
+  EXPECT_EQ(robot.count("exit code 3"), 4) << robot.output();
   master.start();
   EXPECT_TRUE(comes("/odom")) << robot.output();
   robot.signal(SIGINT);
@@ -123,7 +123,7 @@ TEST(Operation, AMistakeInTheRigFileIsNamed) {
   OwnMaster master;
   master.start();
   const std::vector<std::pair<std::string, std::string>> mistakes = {
-      {"camera: {}", "unknown section camera; a rig has: cameras | imu | mounting | disparity"},
+      {"camera: {}", "unknown section camera; a rig has: cameras | imu | laser"},
       {"cameras: {widht: 320}", "cameras: unknown parameter widht"},
       {"cameras: {width: 3}", "cameras: width is 3, allowed is 16 to 8192 px"},
       {"cameras: {left: {divice: /dev/video0}}", "cameras: unknown parameter left.divice"},
