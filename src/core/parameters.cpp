@@ -168,6 +168,35 @@ class Documenter : public ParameterVisitor {
   }
 };
 
+/// Refuses names that are lists or maps themselves, which have no use here. An alias may hold itself, and
+/// many aliases the same: hence the limits.
+class NameCheck {
+ public:
+  explicit NameCheck(const std::string& source) : source_(source) {}
+
+  void check(const YAML::Node& node, int depth = 0) {
+    constexpr int kDeepest = 50, kMostNodes = 1000000;
+    if (depth > kDeepest || ++nodes_ > kMostNodes)
+      throw ParameterError(source_ + ": too deep or too large; does an alias hold itself?");
+    if (node.IsSequence()) {
+      for (const YAML::Node& item : node) check(item, depth + 1);
+    }
+    if (!node.IsMap()) return;
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) {
+        throw ParameterError(source_ + ": line " + std::to_string(entry.first.Mark().line + 1) +
+                             ": expected is a name with a colon behind it, not a list or a map; is the "
+                             "indentation right?");
+      }
+      check(entry.second, depth + 1);
+    }
+  }
+
+ private:
+  const std::string& source_;
+  int nodes_ = 0;
+};
+
 }  // namespace
 
 namespace internal {
@@ -208,7 +237,9 @@ std::string readTextFile(const std::string& path) {
 
 YAML::Node parseYaml(const std::string& text, const std::string& source) {
   try {
-    return YAML::Load(text);
+    YAML::Node root = YAML::Load(text);
+    NameCheck(source).check(root);
+    return root;
   } catch (const YAML::Exception& error) {
     throw ParameterError(source + ": not valid YAML: " + error.what());
   }

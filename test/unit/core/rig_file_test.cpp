@@ -116,6 +116,8 @@ TEST(RigFile, WhatCannotBeReplacedIsNamed) {
   expectRefusal("mounting: {imu: {roll_deg: left, pitch_deg: 0, yaw_deg: 0}}", "'left', no number");
   expectRefusal("mounting: {imu: {roll_deg: '0', pitch_deg: 0, yaw_deg: 0}}", "without quotes");
   expectRefusal("mounting: [", "not valid YAML");
+  expectRefusal("mounting: {x: 1}\n[imu, laser]: 1", "line 2: expected is a name with a colon behind it");
+  expectRefusal("mounting: &a {camera: [*a, *a]}", "does an alias hold itself?");
 }
 
 TEST(RigFile, NumbersAreReplacedInsertedAndAppended) {
