@@ -31,17 +31,20 @@ double whereOne(const std::function<double(double)>& mean_square, double low, do
   return std::sqrt(low * high);
 }
 
-/// Slip and error of the radii for which the covariances are as large as the errors.
+/// Slip and error of the radii for which the covariances are as large as the errors. Where the noise of the
+/// reference explains all of them, the slip stays as it was assumed: it cannot be told.
 void findErrors(const WheelFit& fit, const WheelWindows& slip_windows, const WheelWindows& long_windows,
                 odometry::WheelOdometryParams& params) {
   params.scale_sigma = 0.0;
-  params.slip_sigma_m = whereOne(
-      [&](double slip_sigma_m) {
+  constexpr double kLeastSlip_m = 1e-5;
+  const double slip_sigma_m = whereOne(
+      [&](double tried_sigma_m) {
         odometry::WheelOdometryParams tried = params;
-        tried.slip_sigma_m = slip_sigma_m;
+        tried.slip_sigma_m = tried_sigma_m;
         return fit.meanSquare(slip_windows, tried);
       },
-      1e-5, 0.3);
+      kLeastSlip_m, 0.3);
+  if (slip_sigma_m > kLeastSlip_m) params.slip_sigma_m = slip_sigma_m;
   if (long_windows.windows().size() < kLeastWindows) return;  // chance
   params.scale_sigma = whereOne(
       [&](double scale_sigma) {
