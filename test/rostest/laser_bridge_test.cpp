@@ -68,6 +68,17 @@ double medianOf(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// What a beam mostly measures: in one scan or another no sample may come nearest to it.
+template <class Scans>
+double rangeOf(const Scans& scans, std::size_t beam) {
+  std::vector<double> ranges_m;
+  for (const sensor_msgs::LaserScan& scan : scans) {
+    if (std::isfinite(scan.ranges[beam])) ranges_m.push_back(scan.ranges[beam]);
+  }
+  EXPECT_GE(ranges_m.size(), scans.size() / 2) << "beam " << beam;
+  return medianOf(ranges_m);
+}
+
 TEST(LaserBridge, ScansTheRoomAndStampsEachBeam) {
   ScanProbe probe("clean");
   ASSERT_TRUE(spinUntil([&] { return probe.scans.size() >= 60; }));
@@ -76,9 +87,9 @@ TEST(LaserBridge, ScansTheRoomAndStampsEachBeam) {
   EXPECT_EQ(scan.header.frame_id, "laser_link");
   EXPECT_NEAR(scan.angle_increment, -2.0 * M_PI / 360.0, 1e-6);
   EXPECT_NEAR(scan.angle_min + 359.0F * scan.angle_increment, scan.angle_max, 1e-5);
-  EXPECT_NEAR(scan.ranges[0], 3.0, 0.02);
-  EXPECT_NEAR(scan.ranges[90], 2.0, 0.02);
-  EXPECT_NEAR(scan.ranges[45], 2.0 / std::sin(M_PI / 4.0), 0.06);
+  EXPECT_NEAR(rangeOf(probe.scans, 0), 3.0, 0.02);
+  EXPECT_NEAR(rangeOf(probe.scans, 90), 2.0, 0.02);
+  EXPECT_NEAR(rangeOf(probe.scans, 45), 2.0 / std::sin(M_PI / 4.0), 0.06);
 
   const auto log = readLog(ros::param::param<std::string>("~log", ""));
   ASSERT_GT(log.size(), 10000U);
