@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
+#include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Float64.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -42,6 +44,18 @@ TEST(RobotBase, AVelocityBecomesOdometryOfTheWheels) {
       },
       kLongWait_s, 0.05))
       << x_m;
+}
+
+TEST(RobotBase, TheLaserScansAndRangeFindersThatTheRigFileLacksRest) {
+  ros::NodeHandle handle;
+  std::size_t beams = 0;
+  const ros::Subscriber scans = handle.subscribe<sensor_msgs::LaserScan>(
+      "scan", 10, [&](const sensor_msgs::LaserScan::ConstPtr& scan) { beams = scan->ranges.size(); });
+  EXPECT_TRUE(spinUntil([&] { return beams == 90; })) << beams;
+  ros::V_string nodes;
+  ASSERT_TRUE(ros::master::getNodes(nodes));
+  EXPECT_NE(std::find(nodes.begin(), nodes.end(), "/range_bridge"), nodes.end())
+      << "it rests, and does not end";
 }
 
 TEST(RobotBase, TheCamerasTurnWithTheServoThatCarriesThem) {

@@ -5,6 +5,7 @@
 namespace {
 
 int run() {
+  if (stereo_nav::ros_io::restsWithout(stereo_nav::rig_sections::kLaser)) return 0;
   stereo_nav::nodes::LaserBridgeNode node{ros::NodeHandle(), ros::NodeHandle("~")};
   // Diagnostics run while the scanner is waited for.
   ros::AsyncSpinner spinner(1);

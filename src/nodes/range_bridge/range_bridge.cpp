@@ -5,6 +5,7 @@
 namespace {
 
 int run() {
+  if (stereo_nav::ros_io::restsWithout(stereo_nav::rig_sections::kRangeFinders)) return 0;
   const stereo_nav::nodes::RangeBridgeNode node{ros::NodeHandle(), ros::NodeHandle("~")};
   ros::spin();
   return 0;
