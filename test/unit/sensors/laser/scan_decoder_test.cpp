@@ -119,7 +119,8 @@ TEST(ScanDecoder, WhatIsNoDistanceFollowsRep117) {
   EXPECT_EQ(scan.ranges_m[0], std::numeric_limits<float>::infinity());
   EXPECT_EQ(scan.ranges_m[90], -std::numeric_limits<float>::infinity());
   setup.scanner.missing_share = 1.0;
-  for (const float range : scansOf(setup, 2.0).back().ranges_m) EXPECT_TRUE(std::isnan(range));
+  const Scan nothing = scansOf(setup, 2.0).back();
+  for (const float range : nothing.ranges_m) EXPECT_TRUE(std::isnan(range));
 }
 
 TEST(ScanDecoder, EightThousandSamplesASecondMakeFinerScans) {
