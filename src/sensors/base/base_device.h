@@ -7,9 +7,8 @@
 #include <string>
 
 #include "sensors/base/telemetry_decoder.h"
-#include "sensors/serial/link.h"
+#include "sensors/serial/frame_link.h"
 #include "sensors/serial/port_finder.h"
-#include "sensors/serial/stamp_filter.h"
 
 namespace stereo_nav::base {
 
@@ -29,14 +28,8 @@ struct BaseReading {
   Telemetry telemetry{};
 };
 
-/// A snapshot for diagnostics. Jitters are standard deviations, see JitterMeter.
-struct BaseDeviceStatus {
-  serial::LinkState state = serial::LinkState::kDisconnected;
-  std::string message;  ///< what is seen; when something is wrong, also the likely cause and the remedy
-  double rate_hz = 0.0;
-  double arrival_jitter_s = 0.0;
-  double stamp_jitter_s = 0.0;
-  std::uint64_t connections = 0;
+/// A snapshot for diagnostics.
+struct BaseDeviceStatus : serial::DeviceStatus {
   std::uint64_t commands_sent = 0;
   std::uint64_t commands_unsent = 0;  ///< made while the port was not open, or could not be written to
   ParserCounters counters{};
@@ -56,23 +49,21 @@ class BaseDevice {
   /// Sends a command, whose sequence number the caller counts. Where the port is not open it is dropped and
   /// counted: an old command is of no use.
   void send(const Command& command);
-  /// May be called from any thread. Rate and jitter are those of the last full five seconds.
+  /// May be called from any thread.
   BaseDeviceStatus status() const;
 
  private:
   std::shared_ptr<serial::ByteSource> open();
   void deliver(const DecodedTelemetry& frame, const Sink& sink);
-  std::string explain(const serial::LinkStatus& link) const;
+  serial::LinkWords words() const;
 
   BaseDeviceParams params_;
   serial::PortFinder finder_;
   TelemetryDecoder decoder_;
-  serial::StampFilter stamps_;
   std::weak_ptr<serial::SerialPort> port_;
-  serial::Link link_;
+  serial::FrameLink link_;
 
   mutable std::mutex mutex_;  ///< guards what follows
-  serial::JitterMeter jitter_;
   BaseDeviceStatus status_;
 };
 

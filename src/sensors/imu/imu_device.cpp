@@ -1,16 +1,13 @@
 #include "sensors/imu/imu_device.h"
 
 #include <array>
-#include <sstream>
+#include <string>
 
 #include "sensors/serial/serial_port.h"
 #include "sensors/serial/steady_clock.h"
 
 namespace stereo_nav::imu {
 namespace {
-
-/// Time over which rate and jitter are measured.
-constexpr double kReportPeriod_s = 5.0;
 
 std::unique_ptr<FrameDecoder> makeDecoder(const ImuDeviceParams& params, bool udp) {
   if (params.protocol == Protocol::kAngles) {
@@ -50,8 +47,7 @@ ImuDevice::ImuDevice(const ImuDeviceParams& params, serial::PortFinder port)
       finder_(std::move(port)),
       udp_(parseUdpAddress(finder_.locate())),
       decoder_(makeDecoder(params, udp_.has_value())),
-      stamps_(params.stamps),
-      link_(params.link, [this] { return open(); }) {}
+      link_(params.link, params.stamps, [this] { return open(); }) {}
 
 std::shared_ptr<serial::ByteSource> ImuDevice::open() {
   std::shared_ptr<serial::ByteSource> source;
@@ -62,9 +58,6 @@ std::shared_ptr<serial::ByteSource> ImuDevice::open() {
     finder_.remember();
   }
   decoder_->reset();
-  stamps_.reset();
-  const std::lock_guard<std::mutex> lock(mutex_);
-  jitter_.restart();
   return source;
 }
 
@@ -74,93 +67,52 @@ void ImuDevice::poll(double timeout_s, const Sink& sink) {
   decoder_->push(buffer.data(), size, serial::steadyNow_s(),
                  [&](const DecodedFrame& frame) { deliver(frame, sink); });
   const std::lock_guard<std::mutex> lock(mutex_);
-  status_.counters = decoder_->counters();
+  counters_ = decoder_->counters();
 }
 
 void ImuDevice::deliver(const DecodedFrame& frame, const Sink& sink) {
   ImuReading reading;
-  if (frame.clock_restarted) stamps_.restartClock();
-  const double sent_s = stamps_.stamp(frame.device_clock, frame.device_clock_step, frame.arrival_s);
+  if (frame.clock_restarted) link_.restartClock();
+  const double sent_s = link_.stamp(frame.device_clock, frame.device_clock_step, frame.arrival_s);
   reading.time_s = sent_s - decoder_->wireTime_s() - params_.latency_s;
   reading.angles = frame.angles;
   reading.raw = frame.raw;
-  link_.delivered();
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    jitter_.add(frame.arrival_s, sent_s, frame.device_clock);
-    if (jitter_.duration_s() > kReportPeriod_s) {
-      status_.rate_hz = jitter_.rate_hz();
-      status_.arrival_jitter_s = jitter_.arrivalJitter_s();
-      status_.stamp_jitter_s = jitter_.stampJitter_s();
-      jitter_.restart();
-    }
-  }
   sink(reading);
 }
 
 ImuDeviceStatus ImuDevice::status() const {
-  const serial::LinkStatus link = link_.status();
+  const serial::DeviceStatus link = link_.status(words());
   const std::lock_guard<std::mutex> lock(mutex_);
-  ImuDeviceStatus status = status_;
-  status.state = link.state;
-  status.connections = link.connections;
-  if (status.state != serial::LinkState::kStreaming) {
-    status.rate_hz = status.arrival_jitter_s = status.stamp_jitter_s = 0.0;
-  }
-  status.message = explain(link);
-  return status;
+  return {link, counters_};
 }
 
-std::string ImuDevice::explain(const serial::LinkStatus& link) const {
-  using serial::LinkState;
-  if (udp_) return explainUdp(link);
-  std::ostringstream text;
-  text.precision(3);
-  switch (link.state) {
-    case LinkState::kDisconnected:
-      return link.fault;
-    case LinkState::kWaiting:
-      return "connected, waiting for the first frames";
-    case LinkState::kSilent:
-      text << "no bytes for " << link.silent_s
-           << " s: is the module powered, its program running, and its TX wired to the adapter's RX?";
-      break;
-    case LinkState::kNoFrames:
-      text << "bytes arrive but no frames: check the baud rate (" << params_.baud_rate
-           << " here) and the protocol (" << (params_.protocol == Protocol::kAngles ? "angles" : "raw")
-           << " here)";
-      break;
-    case LinkState::kStreaming:
-      return "streaming";
-  }
-  return text.str();
+serial::LinkWords ImuDevice::words() const {
+  if (udp_) return wordsOfUdp();
+  serial::LinkWords words;
+  words.waiting = "connected, waiting for the first frames";
+  words.silent = ": is the module powered, its program running, and its TX wired to the adapter's RX?";
+  words.no_frames = "bytes arrive but no frames: check the baud rate (" + std::to_string(params_.baud_rate) +
+                    " here) and the protocol (" + (params_.protocol == Protocol::kAngles ? "angles" : "raw") +
+                    " here)";
+  words.streaming = "streaming";
+  return words;
 }
 
-std::string ImuDevice::explainUdp(const serial::LinkStatus& link) const {
-  using serial::LinkState;
-  std::ostringstream text;
-  text.precision(3);
-  switch (link.state) {
-    case LinkState::kDisconnected:
-      return link.fault;
-    case LinkState::kWaiting:
-      return "waiting for the first datagrams on " + udp_->text();
-    case LinkState::kSilent:
-      text << "no datagrams for " << link.silent_s << " s on " << udp_->text()
-           << ": is the stream on, and to this computer's address and this port? ";
-      text << (udp_->host.rfind("127.", 0) == 0 ? "Only this computer is heard: port udp:0.0.0.0:" +
-                                                      std::to_string(udp_->port) + " hears the network, too"
-                                                : std::string("Does a firewall keep them away?"));
-      break;
-    case LinkState::kNoFrames:
-      text << "datagrams arrive, but no measurements: check the protocol ("
-           << (params_.protocol == Protocol::kPhone ? "phone" : "raw")
-           << " here), and that gyroscope and accelerometer are switched on in the app";
-      break;
-    case LinkState::kStreaming:
-      return "streaming";
-  }
-  return text.str();
+serial::LinkWords ImuDevice::wordsOfUdp() const {
+  const bool here_only = udp_->host.rfind("127.", 0) == 0;
+  serial::LinkWords words;
+  words.received = "datagrams";
+  words.waiting = "waiting for the first datagrams on " + udp_->text();
+  words.silent = " on " + udp_->text() +
+                 ": is the stream on, and to this computer's address and this port? " +
+                 (here_only ? "Only this computer is heard: port udp:0.0.0.0:" + std::to_string(udp_->port) +
+                                  " hears the network, too"
+                            : "Does a firewall keep them away?");
+  words.no_frames = std::string("datagrams arrive, but no measurements: check the protocol (") +
+                    (params_.protocol == Protocol::kPhone ? "phone" : "raw") +
+                    " here), and that gyroscope and accelerometer are switched on in the app";
+  words.streaming = "streaming";
+  return words;
 }
 
 }  // namespace stereo_nav::imu

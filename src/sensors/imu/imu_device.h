@@ -9,10 +9,8 @@
 
 #include "sensors/imu/frame_decoder.h"
 #include "sensors/imu/udp_source.h"
-#include "sensors/serial/link.h"
-#include "sensors/serial/link_monitor.h"
+#include "sensors/serial/frame_link.h"
 #include "sensors/serial/port_finder.h"
-#include "sensors/serial/stamp_filter.h"
 
 namespace stereo_nav::imu {
 
@@ -35,14 +33,8 @@ struct ImuReading {
   std::optional<RawMeasurement> raw;
 };
 
-/// A snapshot for diagnostics. Jitters are standard deviations, see JitterMeter.
-struct ImuDeviceStatus {
-  serial::LinkState state = serial::LinkState::kDisconnected;
-  std::string message;  ///< what is seen; when something is wrong, also the likely cause and the remedy
-  double rate_hz = 0.0;
-  double arrival_jitter_s = 0.0;
-  double stamp_jitter_s = 0.0;
-  std::uint64_t connections = 0;
+/// A snapshot for diagnostics.
+struct ImuDeviceStatus : serial::DeviceStatus {
   DecoderCounters counters;
 };
 
@@ -59,25 +51,23 @@ class ImuDevice {
   /// Waits for bytes for at most `timeout_s` and passes on the readings that they complete. To be called from
   /// one thread in a loop.
   void poll(double timeout_s, const Sink& sink);
-  /// May be called from any thread. Rate and jitter are those of the last full five seconds.
+  /// May be called from any thread.
   ImuDeviceStatus status() const;
 
  private:
   std::shared_ptr<serial::ByteSource> open();
   void deliver(const DecodedFrame& frame, const Sink& sink);
-  std::string explain(const serial::LinkStatus& link) const;
-  std::string explainUdp(const serial::LinkStatus& link) const;
+  serial::LinkWords words() const;
+  serial::LinkWords wordsOfUdp() const;
 
   ImuDeviceParams params_;
   serial::PortFinder finder_;
   std::optional<UdpAddress> udp_;  ///< nothing: a serial port
   std::unique_ptr<FrameDecoder> decoder_;
-  serial::StampFilter stamps_;
-  serial::Link link_;
+  serial::FrameLink link_;
 
   mutable std::mutex mutex_;  ///< guards what follows
-  serial::JitterMeter jitter_;
-  ImuDeviceStatus status_;
+  DecoderCounters counters_;
 };
 
 }  // namespace stereo_nav::imu

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
+#include <string>
 
+#include "sensors/serial/frame_link.h"
 #include "sensors/serial/steady_clock.h"
 
 namespace stereo_nav::laser {
@@ -131,27 +132,15 @@ LaserDeviceStatus LaserDevice::status() const {
 
 /// The caller holds the mutex.
 std::string LaserDevice::explain(const serial::LinkStatus& link) const {
-  using serial::LinkState;
-  if (link.state == LinkState::kDisconnected) return link.fault;
-  if (!problem_.empty()) return problem_;
-  std::ostringstream text;
-  text.precision(3);
-  switch (link.state) {
-    case LinkState::kSilent:
-      text << "no bytes for " << link.silent_s << " s: is the scanner powered, and does its motor turn?";
-      break;
-    case LinkState::kNoFrames:
-      text << "bytes arrive but no samples: does the motor turn steadily? Otherwise check the baud rate ("
-           << params_.baud_rate << " here)";
-      break;
-    case LinkState::kStreaming:
-      text << "scanning";
-      break;
-    case LinkState::kDisconnected:
-    case LinkState::kWaiting:
-      text << "connected, waiting for the first samples";
-  }
-  return text.str();
+  if (link.state != serial::LinkState::kDisconnected && !problem_.empty()) return problem_;
+  serial::LinkWords words;
+  words.waiting = "connected, waiting for the first samples";
+  words.silent = ": is the scanner powered, and does its motor turn?";
+  words.no_frames =
+      "bytes arrive but no samples: does the motor turn steadily? Otherwise check the baud rate (" +
+      std::to_string(params_.baud_rate) + " here)";
+  words.streaming = "scanning";
+  return serial::explain(link, words);
 }
 
 }  // namespace stereo_nav::laser

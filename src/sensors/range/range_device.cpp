@@ -2,7 +2,7 @@
 
 #include <array>
 #include <limits>
-#include <sstream>
+#include <string>
 
 #include "sensors/serial/serial_port.h"
 #include "sensors/serial/steady_clock.h"
@@ -10,8 +10,6 @@
 namespace stereo_nav::range {
 namespace {
 
-/// Time over which rate and jitter are measured.
-constexpr double kReportPeriod_s = 5.0;
 /// Bits on the wire for a byte: start bit, eight data bits, stop bit.
 constexpr double kBitsPerByte = 10.0;
 /// After a silence as long as this, the device may have paused: frames have no number.
@@ -46,16 +44,12 @@ double rangeOf(const TfminiMeasurement& measurement, const RangeDeviceParams& pa
 RangeDevice::RangeDevice(const RangeDeviceParams& params, serial::PortFinder port)
     : params_(params),
       finder_(std::move(port)),
-      stamps_(params.stamps),
-      link_(params.link, [this] { return open(); }) {}
+      link_(params.link, params.stamps, [this] { return open(); }) {}
 
 std::shared_ptr<serial::ByteSource> RangeDevice::open() {
   auto port = std::make_shared<serial::SerialPort>(finder_.locate(), params_.baud_rate);
   finder_.remember();
   parser_.reset();
-  stamps_.reset();
-  const std::lock_guard<std::mutex> lock(mutex_);
-  jitter_.restart();
   return port;
 }
 
@@ -74,57 +68,33 @@ void RangeDevice::poll(double timeout_s, const Sink& sink) {
 }
 
 void RangeDevice::deliver(const TfminiFrame& frame, double arrival_s, const Sink& sink) {
-  if (arrival_s - last_arrival_s_ > kPause_s) stamps_.restartClock();
+  if (arrival_s - last_arrival_s_ > kPause_s) link_.restartClock();
   last_arrival_s_ = arrival_s;
-  const auto number = static_cast<double>(frame.index);
-  const double sent_s = stamps_.stamp(number, 1.0, arrival_s);
+  const double sent_s = link_.stamp(static_cast<double>(frame.index), 1.0, arrival_s);
   const double wire_s = tfmini::kFrameBytes * kBitsPerByte / params_.baud_rate;
-  link_.delivered();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     status_.last = frame.measurement;
-    jitter_.add(arrival_s, sent_s, number);
-    if (jitter_.duration_s() > kReportPeriod_s) {
-      status_.rate_hz = jitter_.rate_hz();
-      status_.arrival_jitter_s = jitter_.arrivalJitter_s();
-      jitter_.restart();
-    }
   }
   sink({sent_s - wire_s - params_.latency_s, rangeOf(frame.measurement, params_), frame.measurement});
 }
 
 RangeDeviceStatus RangeDevice::status() const {
-  const serial::LinkStatus link = link_.status();
+  const serial::DeviceStatus link = link_.status(words());
   const std::lock_guard<std::mutex> lock(mutex_);
   RangeDeviceStatus status = status_;
-  status.state = link.state;
-  status.connections = link.connections;
-  if (status.state != serial::LinkState::kStreaming) status.rate_hz = status.arrival_jitter_s = 0.0;
-  status.message = explain(link);
+  static_cast<serial::DeviceStatus&>(status) = link;
   return status;
 }
 
-std::string RangeDevice::explain(const serial::LinkStatus& link) const {
-  using serial::LinkState;
-  std::ostringstream text;
-  text.precision(3);
-  switch (link.state) {
-    case LinkState::kDisconnected:
-      return link.fault;
-    case LinkState::kWaiting:
-      return "connected, waiting for the first frames";
-    case LinkState::kSilent:
-      text << "no bytes for " << link.silent_s
-           << " s: is the range finder powered with 5 V, and its TX wired to the adapter's RX?";
-      break;
-    case LinkState::kNoFrames:
-      text << "bytes arrive but no frames: check the baud rate (" << params_.baud_rate
-           << " here) and that the range finder sends its standard format, not text";
-      break;
-    case LinkState::kStreaming:
-      return "measuring";
-  }
-  return text.str();
+serial::LinkWords RangeDevice::words() const {
+  serial::LinkWords words;
+  words.waiting = "connected, waiting for the first frames";
+  words.silent = ": is the range finder powered with 5 V, and its TX wired to the adapter's RX?";
+  words.no_frames = "bytes arrive but no frames: check the baud rate (" + std::to_string(params_.baud_rate) +
+                    " here) and that the range finder sends its standard format, not text";
+  words.streaming = "measuring";
+  return words;
 }
 
 }  // namespace stereo_nav::range

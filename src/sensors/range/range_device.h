@@ -7,9 +7,8 @@
 #include <string>
 
 #include "sensors/range/tfmini_protocol.h"
-#include "sensors/serial/link.h"
+#include "sensors/serial/frame_link.h"
 #include "sensors/serial/port_finder.h"
-#include "sensors/serial/stamp_filter.h"
 
 namespace stereo_nav::range {
 
@@ -37,12 +36,7 @@ struct RangeReading {
 double rangeOf(const TfminiMeasurement& measurement, const RangeDeviceParams& params);
 
 /// A snapshot for diagnostics.
-struct RangeDeviceStatus {
-  serial::LinkState state = serial::LinkState::kDisconnected;
-  std::string message;  ///< what is seen; when something is wrong, also the likely cause and the remedy
-  double rate_hz = 0.0;
-  double arrival_jitter_s = 0.0;
-  std::uint64_t connections = 0;
+struct RangeDeviceStatus : serial::DeviceStatus {
   TfminiCounters counters;
   TfminiMeasurement last;
 };
@@ -58,23 +52,21 @@ class RangeDevice {
   /// Waits for bytes for at most `timeout_s` and passes on the readings that they complete. To be called from
   /// one thread in a loop.
   void poll(double timeout_s, const Sink& sink);
-  /// May be called from any thread. Rate and jitter are those of the last full five seconds.
+  /// May be called from any thread.
   RangeDeviceStatus status() const;
 
  private:
   std::shared_ptr<serial::ByteSource> open();
   void deliver(const TfminiFrame& frame, double arrival_s, const Sink& sink);
-  std::string explain(const serial::LinkStatus& link) const;
+  serial::LinkWords words() const;
 
   RangeDeviceParams params_;
   serial::PortFinder finder_;
   TfminiParser parser_;
-  serial::StampFilter stamps_;
   double last_arrival_s_ = 0.0;
-  serial::Link link_;
+  serial::FrameLink link_;
 
   mutable std::mutex mutex_;  ///< guards what follows
-  serial::JitterMeter jitter_;
   RangeDeviceStatus status_;
 };
 

@@ -1,10 +1,8 @@
 // Behaves like the microcontroller of a base with its wheels, with the faults of cables and adapters, on a
 // pseudo-terminal.
-#include <ros/ros.h>
 
 #include <cmath>
 #include <fstream>
-#include <iostream>
 #include <stdexcept>
 
 #include "kinematics/drive_file.h"
@@ -95,12 +93,9 @@ class Emulator {
         adapter_(options.run.adapter),
         faults_(options.run.adapter.corrupt_probability, options.run.adapter.drop_probability,
                 options.run.adapter.seed + 3),
-        run_(options.run) {
-    if (!options_.run.log.empty()) {
-      log_.open(options_.run.log);
-      log_.precision(12);
-      log_ << "# steady time (s), mode, for each wheel: held speed (m/s), speed (m/s), way (m)" << std::endl;
-    }
+        run_(options.run),
+        log_(options.run.openLog(
+            "# steady time (s), mode, for each wheel: held speed (m/s), speed (m/s), way (m)")) {
     run_.start(adapter_);
   }
 
@@ -112,13 +107,13 @@ class Emulator {
       for (const std::uint8_t byte : commands) base_.receive(byte);
       base_.advance(run_.elapsed_s(), [this](const std::vector<std::uint8_t>& frame, double time_s) {
         if (!options_.run.pause.contains(time_s)) adapter_.send(frame, run_.start_s() + time_s);
-        ++frames_;
+        sent_.add();
         if (log_.is_open()) writeLog(time_s);
       });
       adapter_.handOver(serial::steadyNow_s());
       sleepBriefly();
     }
-    std::cout << "sent " << frames_ << " frames" << std::endl;
+    sent_.print("frames", adapter_.overrun());
   }
 
  private:
@@ -138,18 +133,11 @@ class Emulator {
   serial::LineFaults faults_;
   EmulatorRun run_;
   std::ofstream log_;
-  std::uint64_t frames_ = 0;
+  SentCounter sent_;
 };
 
 int run(int argc, char** argv) {
-  std::vector<std::string> remaining;
-  ros::removeROSArgs(argc, argv, remaining);
-  std::vector<char*> arguments;
-  for (std::string& argument : remaining) arguments.push_back(argument.data());
-  Options options;
-  if (!parse(static_cast<int>(arguments.size()), arguments.data(), options)) return 0;
-  Emulator(options).run();
-  return 0;
+  return emulate<Emulator>(argc, argv, parse);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <iostream>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
@@ -48,6 +49,29 @@ void EmulatorRunOptions::check() const {
   if (adapter.baud_rate <= 0 || adapter.batch_s < 0.0) {
     throw std::runtime_error("--baud must be above 0, --batch 0 or more");
   }
+}
+
+std::ofstream EmulatorRunOptions::openLog(const std::string& heading) const {
+  std::ofstream file;
+  if (log.empty()) return file;
+  file.open(log);
+  file.precision(17);
+  file << heading << std::endl;
+  return file;
+}
+
+bool SentCounter::admits(const serial::EmulatedAdapter& adapter, double at_s) {
+  constexpr double kMaxBacklog_s = 0.005;
+  const bool fits = adapter.backlog_s(at_s) <= kMaxBacklog_s;
+  ++(fits ? sent_ : left_out_);
+  return fits;
+}
+
+void SentCounter::print(const std::string& what, std::uint64_t overrun) const {
+  std::cout << "sent " << sent_ << " " << what;
+  if (left_out_ > 0) std::cout << ", left out " << left_out_ << ": the line is too slow for this rate";
+  if (overrun > 0) std::cout << ", " << overrun << " bytes lost: nobody read them";
+  std::cout << std::endl;
 }
 
 EmulatorRun::EmulatorRun(const EmulatorRunOptions& options)

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <boost/program_options.hpp>
+#include <cstdint>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,22 @@ struct EmulatorRunOptions {
   void addOptions(boost::program_options::options_description& options);
   /// To be called after parsing. Throws std::runtime_error.
   void check() const;
+  /// The file `log`, with `heading` as its first line; closed where there is none.
+  std::ofstream openLog(const std::string& heading) const;
+};
+
+/// Counts what was sent, and what was not since the line is too slow for it.
+class SentCounter {
+ public:
+  /// Whether something that is due at `at_s` is sent: it waits for the line for 5 ms at most.
+  bool admits(const serial::EmulatedAdapter& adapter, double at_s);
+  /// Counts what goes another way than by an adapter.
+  void add() { ++sent_; }
+  /// `what`: frames, samples. `overrun`: bytes that nobody read.
+  void print(const std::string& what, std::uint64_t overrun) const;
+
+ private:
+  std::uint64_t sent_ = 0, left_out_ = 0;
 };
 
 /// The clock of an emulator, and its end: by --duration or by a signal.
@@ -49,5 +67,15 @@ std::vector<char*> withoutRosArguments(int argc, char** argv);
 
 /// Lets other programs run until something may be due.
 void sleepBriefly();
+
+/// run() of an emulator that is no node. `parse` returns false where only help was asked for.
+template <class Emulator, class Options>
+int emulate(int argc, char** argv, bool (*parse)(int, char**, Options&)) {
+  Options options;
+  std::vector<char*> arguments = withoutRosArguments(argc, argv);
+  if (!parse(static_cast<int>(arguments.size()), arguments.data(), options)) return 0;
+  Emulator(options).run();
+  return 0;
+}
 
 }  // namespace stereo_nav::tools

@@ -4,7 +4,6 @@
 #include <sensor_msgs/Imu.h>
 
 #include <fstream>
-#include <iostream>
 #include <optional>
 
 #include "sensors/imu/module_angles.h"
@@ -16,21 +15,14 @@
 namespace stereo_nav::tools {
 namespace {
 
-/// The longest time that a frame waits for the line; a module whose line is too slow leaves frames out.
-constexpr double kMaxBacklog_s = 0.005;
-
 class Emulator {
  public:
   explicit Emulator(EmulatorOptions options)
       : options_(std::move(options)),
         run_(options_.run),
         module_(options_.protocol, options_.order, options_.magnetometer, options_.errors,
-                options_.run.adapter.seed) {
-    if (!options_.run.log.empty()) {
-      log_.open(options_.run.log);
-      log_.precision(17);
-      log_ << "# steady time (s), yaw (deg), pitch (deg), roll (deg)\n";
-    }
+                options_.run.adapter.seed),
+        log_(options_.run.openLog("# steady time (s), yaw (deg), pitch (deg), roll (deg)")) {
     if (options_.udp) {
       datagrams_.emplace(*options_.udp);
     } else {
@@ -53,14 +45,11 @@ class Emulator {
   void send(const imu::MotionState& state, double time_s) {
     if (options_.run.pause.contains(time_s)) return;
     const double at_s = run_.start_s() + time_s;
-    if (adapter_ && adapter_->backlog_s(at_s) > kMaxBacklog_s) {
-      ++left_out_;
-      return;
-    }
+    if (adapter_ && !sent_.admits(*adapter_, at_s)) return;
     const auto frame = module_.frame(state, time_s);
     if (adapter_) adapter_->send(frame, at_s);
+    if (datagrams_) sent_.add();
     if (datagrams_ && !options_.run.adapter.unplug.contains(time_s)) datagrams_->send(frame);
-    ++sent_;
     if (log_.is_open()) writeLog(state, time_s);
   }
 
@@ -68,14 +57,7 @@ class Emulator {
     if (adapter_) adapter_->handOver(serial::steadyNow_s());
   }
 
-  void printCounts() const {
-    std::cout << "sent " << sent_ << " frames";
-    if (left_out_ > 0) std::cout << ", left out " << left_out_ << ": the line is too slow for this rate";
-    if (adapter_ && adapter_->overrun() > 0) {
-      std::cout << ", " << adapter_->overrun() << " bytes lost: nobody read them";
-    }
-    std::cout << std::endl;
-  }
+  void printCounts() const { sent_.print("frames", adapter_ ? adapter_->overrun() : 0); }
 
  private:
   void writeLog(const imu::MotionState& state, double time_s) {
@@ -93,7 +75,8 @@ class Emulator {
   std::optional<imu::DatagramLine> datagrams_;  ///< one of the two
   std::ofstream log_;
   double frame_time_s_ = 0.0;
-  std::uint64_t frame_number_ = 0, sent_ = 0, left_out_ = 0;
+  std::uint64_t frame_number_ = 0;
+  SentCounter sent_;
 };
 
 void followMotion(Emulator& emulator) {

@@ -1,7 +1,6 @@
 // Behaves like an RPLiDAR A1, with the faults of cables and adapters, on a pseudo-terminal.
 #include <boost/program_options.hpp>
 #include <fstream>
-#include <iostream>
 #include <vector>
 
 #include "sensors/laser/emulation/emulated_scanner.h"
@@ -14,9 +13,6 @@
 namespace stereo_nav::tools {
 namespace {
 
-/// The longest time that a node waits for the line; a scanner whose line is too slow leaves nodes out.
-constexpr double kMaxBacklog_s = 0.005;
-
 struct Options {
   laser::ScannerOptions scanner;
   EmulatorRunOptions run;
@@ -25,16 +21,15 @@ struct Options {
 class LaserEmulator {
  public:
   explicit LaserEmulator(const Options& options)
-      : options_(options), run_(options.run), scanner_(options.scanner), adapter_(options.run.adapter) {
-    if (!options_.run.log.empty()) {
-      log_.open(options_.run.log);
-      log_.precision(17);
-      log_ << "# steady time (s), heading (deg, clockwise), distance (m)\n";
-    }
+      : options_(options),
+        run_(options.run),
+        scanner_(options.scanner),
+        adapter_(options.run.adapter),
+        log_(options.run.openLog("# steady time (s), heading (deg, clockwise), distance (m)")) {
     run_.start(adapter_);
   }
 
-  void work() {
+  void run() {
     while (!run_.done()) {
       const double now_s = run_.elapsed_s();
       send(scanner_.receive(adapter_.received(), now_s));
@@ -44,13 +39,7 @@ class LaserEmulator {
       adapter_.handOver(serial::steadyNow_s());
       sleepBriefly();
     }
-  }
-
-  void printCounts() const {
-    std::cout << "sent " << sent_ << " samples";
-    if (left_out_ > 0) std::cout << ", left out " << left_out_ << ": the line is too slow for this rate";
-    if (adapter_.overrun() > 0) std::cout << ", " << adapter_.overrun() << " bytes lost: nobody read them";
-    std::cout << std::endl;
+    sent_.print("samples", adapter_.overrun());
   }
 
  private:
@@ -61,12 +50,8 @@ class LaserEmulator {
   void sendNode(const laser::EmulatedScanner::Output& node) {
     if (options_.run.pause.contains(node.time_s)) return;
     const double time_s = run_.start_s() + node.time_s;
-    if (adapter_.backlog_s(time_s) > kMaxBacklog_s) {
-      ++left_out_;
-      return;
-    }
+    if (!sent_.admits(adapter_, time_s)) return;
     adapter_.send(node.bytes, time_s);
-    ++sent_;
     if (!log_.is_open()) return;
     const double heading_deg = scanner_.heading_deg(node.time_s);
     log_ << time_s << "," << heading_deg << "," << scanner_.distance_m(heading_deg) << "\n";
@@ -77,7 +62,7 @@ class LaserEmulator {
   laser::EmulatedScanner scanner_;
   serial::EmulatedAdapter adapter_;
   std::ofstream log_;
-  std::uint64_t sent_ = 0, left_out_ = 0;
+  SentCounter sent_;
 };
 
 bool parse(int argc, char** argv, Options& o) {
@@ -109,13 +94,7 @@ bool parse(int argc, char** argv, Options& o) {
 }
 
 int run(int argc, char** argv) {
-  Options options;
-  std::vector<char*> arguments = withoutRosArguments(argc, argv);
-  if (!parse(static_cast<int>(arguments.size()), arguments.data(), options)) return 0;
-  LaserEmulator emulator(options);
-  emulator.work();
-  emulator.printCounts();
-  return 0;
+  return emulate<LaserEmulator>(argc, argv, parse);
 }
 
 }  // namespace

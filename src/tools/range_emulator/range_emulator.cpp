@@ -3,7 +3,6 @@
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <fstream>
-#include <iostream>
 #include <random>
 #include <vector>
 
@@ -17,8 +16,6 @@
 namespace stereo_nav::tools {
 namespace {
 
-/// The longest time that a frame waits for the line; a module whose line is too slow leaves frames out.
-constexpr double kMaxBacklog_s = 0.005;
 constexpr std::uint16_t kTemperature = (256 + 40) * 8;
 
 struct Options {
@@ -37,16 +34,12 @@ class RangeEmulator {
       : options_(options),
         run_(options.run),
         adapter_(options.run.adapter),
-        random_(options.run.adapter.seed) {
-    if (!options_.run.log.empty()) {
-      log_.open(options_.run.log);
-      log_.precision(17);
-      log_ << "# steady time (s), distance (m)\n";
-    }
+        random_(options.run.adapter.seed),
+        log_(options.run.openLog("# steady time (s), distance (m)")) {
     run_.start(adapter_);
   }
 
-  void work() {
+  void run() {
     for (std::uint64_t number = 0; !run_.done();) {
       for (double time_s = 0.0; run_.sendsAt(time_s = static_cast<double>(number) / options_.rate_hz);
            ++number) {
@@ -55,22 +48,13 @@ class RangeEmulator {
       adapter_.handOver(serial::steadyNow_s());
       sleepBriefly();
     }
-  }
-
-  void printCounts() const {
-    std::cout << "sent " << sent_ << " frames";
-    if (left_out_ > 0) std::cout << ", left out " << left_out_ << ": the line is too slow for this rate";
-    if (adapter_.overrun() > 0) std::cout << ", " << adapter_.overrun() << " bytes lost: nobody read them";
-    std::cout << std::endl;
+    sent_.print("frames", adapter_.overrun());
   }
 
  private:
   void send(double time_s) {
     const double at_s = run_.start_s() + time_s;
-    if (adapter_.backlog_s(at_s) > kMaxBacklog_s) {
-      ++left_out_;
-      return;
-    }
+    if (!sent_.admits(adapter_, at_s)) return;
     const double true_m =
         options_.distance_m + options_.amplitude_m * std::sin(2.0 * M_PI * time_s / options_.period_s);
     const double measured_m = true_m + options_.noise_m * std::normal_distribution<double>()(random_);
@@ -82,7 +66,6 @@ class RangeEmulator {
     std::vector<std::uint8_t> frame(range::tfmini::kFrameBytes);
     range::tfmini::encode(measurement, frame.data());
     adapter_.send(frame, at_s);
-    ++sent_;
     if (log_.is_open()) log_ << at_s << "," << true_m << "\n";
   }
 
@@ -91,7 +74,7 @@ class RangeEmulator {
   serial::EmulatedAdapter adapter_;
   std::mt19937 random_;
   std::ofstream log_;
-  std::uint64_t sent_ = 0, left_out_ = 0;
+  SentCounter sent_;
 };
 
 bool parse(int argc, char** argv, Options& o) {
@@ -118,13 +101,7 @@ bool parse(int argc, char** argv, Options& o) {
 }
 
 int run(int argc, char** argv) {
-  Options options;
-  std::vector<char*> arguments = withoutRosArguments(argc, argv);
-  if (!parse(static_cast<int>(arguments.size()), arguments.data(), options)) return 0;
-  RangeEmulator emulator(options);
-  emulator.work();
-  emulator.printCounts();
-  return 0;
+  return emulate<RangeEmulator>(argc, argv, parse);
 }
 
 }  // namespace
