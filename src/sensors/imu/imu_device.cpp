@@ -101,7 +101,7 @@ serial::LinkWords ImuDevice::words() const {
 serial::LinkWords ImuDevice::wordsOfUdp() const {
   const bool here_only = udp_->host.rfind("127.", 0) == 0;
   serial::LinkWords words;
-  words.received = "datagrams";
+  words.silence = "no datagrams for";
   words.waiting = "waiting for the first datagrams on " + udp_->text();
   words.silent = " on " + udp_->text() +
                  ": is the stream on, and to this computer's address and this port? " +

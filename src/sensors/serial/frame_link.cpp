@@ -20,7 +20,7 @@ std::string explain(const LinkStatus& link, const LinkWords& words) {
     case LinkState::kSilent: {
       std::ostringstream text;
       text.precision(3);
-      text << "no " << words.received << " for " << link.silent_s << " s" << words.silent;
+      text << words.silence << " " << link.silent_s << " s" << words.silent;
       return text.str();
     }
     case LinkState::kNoFrames:

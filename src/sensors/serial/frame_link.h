@@ -12,11 +12,11 @@ namespace stereo_nav::serial {
 
 /// How a device says what is seen of its line.
 struct LinkWords {
-  std::string waiting;             ///< opened, but too early to tell
-  std::string silent;              ///< follows "no bytes for 3 s": likely cause and remedy
-  std::string no_frames;           ///< what arrives is no frame
-  std::string streaming;           ///< all is well
-  std::string received = "bytes";  ///< what should arrive
+  std::string waiting;                   ///< opened, but too early to tell
+  std::string silence = "no bytes for";  ///< before the seconds
+  std::string silent;                    ///< after them: likely cause and remedy
+  std::string no_frames;                 ///< what arrives is no frame
+  std::string streaming;                 ///< all is well
 };
 /// What is seen of the line; when something is wrong, also the likely cause and the remedy.
 std::string explain(const LinkStatus& link, const LinkWords& words);
