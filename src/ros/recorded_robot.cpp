@@ -84,7 +84,8 @@ MountedImu RecordedRobot::imu(const std::string& topic, double from_s, double to
   return result;
 }
 
-BasePoses RecordedRobot::poses(const std::string& topic, bool required) const {
+BasePoses RecordedRobot::poses(const std::string& topic, bool required,
+                               const std::optional<std::string>& body_frame) const {
   const auto found = find(topic.substr(std::min(topic.find_first_not_of('/'), topic.size())));
   if (!found) {
     if (!required) return {};
@@ -93,7 +94,7 @@ BasePoses RecordedRobot::poses(const std::string& topic, bool required) const {
   }
   RecordedPoses recorded = readRecordedPoses(bag_, order_, path_, *found);
   clock_.straighten(recorded.trajectory, [](StampedPose& pose) -> double& { return pose.time_s; });
-  const std::string& body = recorded.body_frame;
+  const std::string body = body_frame.value_or(recorded.body_frame);
   if (body.empty() || body == frames::kBase) return {recorded.trajectory, recorded.world_frame};
   return {ofOtherBody(recorded.trajectory, T_base(body).inverse()), recorded.world_frame};
 }

@@ -56,7 +56,9 @@ class RecordedRobot {
   /// The IMU on `topic`, to be used from `from_s` to `to_s`.
   MountedImu imu(const std::string& topic, double from_s, double to_s) const;
   /// Poses of base_link on `topic`; empty where the bag has no such topic and none was required.
-  BasePoses poses(const std::string& topic, bool required) const;
+  /// `body_frame`: the frame whose poses it gives, where that is not the one that the topic names.
+  BasePoses poses(const std::string& topic, bool required,
+                  const std::optional<std::string>& body_frame = std::nullopt) const;
   /// Pose of `frame` in base_link from the recorded static transforms; nothing where these do not hold it.
   std::optional<Eigen::Isometry3d> mounting(const std::string& frame) const;
   /// The same; throws InputError where there is none.
