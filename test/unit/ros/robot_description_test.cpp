@@ -130,6 +130,8 @@ TEST(RigFiles, AreReadByAllWhoReadThem) {
     const RigFile rig = RigFile::load(entry.path().string());
     found.insert(entry.path().stem().string());
     RobotGeometry robot;
+    robot.camera_frame = "camera_left_optical";
+    robot.imu_frame = "imu_link";
     robot.mounting = rig.mounting();
     if (entry.path().stem() == "thesis") continue;  // no wheels
     robot.drive = kinematics::readDrive(rig);
