@@ -132,6 +132,9 @@ TEST(Operation, AMistakeInTheRigFileIsNamed) {
       {"mounting: {camera: {z_m: 283}}", "mounting: camera.z_m is 283, allowed is -100 to 100 m"},
       {"mounting: {camera: {z_m: high}}", "mounting: camera.z_m is 'high', must be a number"},
       {"disparity: {disparity_range: 8}", "disparity: disparity_range is 8, allowed is 32 to 4096 px"},
+      {"base: {ranges: 1, range_1: {name: front}}\nrange_finders: {finders: 1, finder_1: {name: front}}",
+       "two sensors have the frame 'range_front'"},
+      {"range_finders: {finders: 1, finder_1: {name: a/b}}", "name 'a/b' cannot be part of a topic"},
       {"just a text", "a rig file holds sections"},
   };
   for (const auto& [rig, message] : mistakes) {
