@@ -5,7 +5,7 @@
 #   scripts/fuzz.sh KIND [SECONDS] [BUILD_DIR]      (default: 600 seconds, build)
 #
 # KIND: ros, opencv, kalibr, kitti, euroc, rig, times, lists, names, bag; test/fuzz/input_fuzz.cpp says what each reads.
-# Of devices: angles, raw, raw_udp, phone (IMU), laser, tfmini; test/fuzz/device_fuzz.cpp; base; test/fuzz/base_fuzz.cpp.
+# Of devices: angles, raw, raw_udp, phone (IMU), laser, tfmini, base; test/fuzz/device_fuzz.cpp.
 # Needs clang and, but for devices, a BUILD_DIR that is built: the readers are compiled anew, all else is taken from there.
 # Inputs are kept in BUILD_DIR/fuzz; a finding ends the script with an error and leaves its input there.
 set -euo pipefail
@@ -22,10 +22,10 @@ sanitize=("-fsanitize=address,undefined" -fno-sanitize-recover=all)
 cd "$root"
 
 case $kind in
-  angles | raw | raw_udp | phone | laser | tfmini)
+  angles | raw | raw_udp | phone | laser | tfmini | base)
     longest=4000
     includes=(-Iinclude -isystem "$(pkg-config --variable=prefix eigen3)/include/eigen3")
-    sources=(test/fuzz/{device_fuzz,device_fuzz_main}.cpp src/core/roll_pitch_yaw.cpp src/sensors/{serial,laser,range}/*.cpp
+    sources=(test/fuzz/{base_fuzz,device_fuzz,device_fuzz_main}.cpp src/core/roll_pitch_yaw.cpp src/sensors/{serial,laser,range}/*.cpp
       src/sensors/imu/{angle_protocol,angle_gate,datagram_decoder,frame_decoder,module_angles,phone_protocol,raw_protocol}.cpp)
     libraries=()
     ;;
@@ -37,7 +37,7 @@ case $kind in
       exit 2
     }
     read -ra includes < <(sed -n 's/^CXX_INCLUDES = //p' "$flags")
-    sources=(test/fuzz/{base_fuzz,input_fuzz,input_fuzz_main}.cpp src/core/{rig_file,text_table,parameters}.cpp
+    sources=(test/fuzz/{input_fuzz,input_fuzz_main}.cpp src/core/{rig_file,text_table,parameters}.cpp
       src/ros/{bag_structure,calibration_file,recorded_order,recording,rig_topics,judged_infos,pairing,conversions}.cpp
       src/tools/import_sequence/{image_names,image_stamps,kitti_layout,euroc_layout,images_layout}.cpp
       src/tools/import_sequence/{raw_pair,raw_pair_files,rectified_camera,frame_reader,sixteen_bits}.cpp)

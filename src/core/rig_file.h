@@ -33,10 +33,11 @@ struct SensorMounting {
   void setRotation(const Eigen::Matrix3d& R_base_sensor);
 };
 
-/// Section `mounting` of a rig file.
+/// Section `mounting` of a rig file. What stands in a list (servos, range finders) has its place there.
 struct Mounting {
   SensorMounting camera;  ///< the left camera as a body that looks along its x axis
   SensorMounting imu;     ///< the axes of the IMU's messages
+  SensorMounting laser;   ///< the laser scanner: x along its own zero, z upwards
 
   void describe(ParameterVisitor& visitor);
 };

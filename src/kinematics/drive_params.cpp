@@ -1,6 +1,7 @@
 #include "kinematics/drive_params.h"
 
 #include "core/angles.h"
+#include "core/parameter_list.h"
 
 namespace stereo_nav::kinematics {
 
@@ -32,11 +33,7 @@ void WheelParams::describe(ParameterVisitor& visitor) {
 }
 
 void DriveParams::describe(ParameterVisitor& visitor) {
-  int count = static_cast<int>(wheels.size());
-  visitor.integer("wheels", count, {0, 16}, "", "number of wheels; wheel_1 to wheel_N describe them");
-  if (count >= 0 && count <= 16) wheels.resize(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < wheels.size(); ++i)
-    visitSection(visitor, "wheel_" + std::to_string(i + 1), wheels[i]);
+  visitList(visitor, "wheels", "wheel", wheels, 16, "number of wheels");
 }
 
 }  // namespace stereo_nav::kinematics

@@ -1,39 +1,9 @@
 #include "ros/base_bridge_params.h"
 
-#include <ros/names.h>
-
-#include <set>
+#include "core/parameter_list.h"
+#include "ros/topic_names.h"
 
 namespace stereo_nav::ros_io {
-namespace {
-
-/// A list as numbered sections: `joints: 2`, `joint_1: {...}`, `joint_2: {...}`.
-template <class Item>
-void visitList(ParameterVisitor& visitor, const std::string& plural, const std::string& singular,
-               std::vector<Item>& items, int most, const std::string& doc) {
-  int count = static_cast<int>(items.size());
-  visitor.integer(plural, count, {0, most}, "",
-                  doc + "; " + singular + "_1 to " + singular + "_N describe them");
-  if (count >= 0 && count <= most) items.resize(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < items.size(); ++i)
-    visitSection(visitor, singular + "_" + std::to_string(i + 1), items[i]);
-}
-
-template <class Item>
-void checkNamesOf(const std::vector<Item>& items, const std::string& kind) {
-  std::set<std::string> names;
-  for (const auto& item : items) {
-    std::string reason;
-    if (item.name.find('/') != std::string::npos || !ros::names::validate(item.name, reason))
-      throw ParameterError("base: the " + kind + " name '" + item.name +
-                           "' cannot be part of a topic; use letters, digits and underscores");
-    if (!names.insert(item.name).second)
-      throw ParameterError("base: two of the " + kind + "s have the name '" + item.name +
-                           "', but each has topics of its own; give each its own name");
-  }
-}
-
-}  // namespace
 
 void BaseJointParams::describe(ParameterVisitor& visitor) {
   visitor.text("name", name, "name in joint_states and of the topic joints/NAME");
@@ -63,10 +33,10 @@ void BaseNameParams::describe(ParameterVisitor& visitor) {
 }
 
 void BaseBridgeParams::checkNames() const {
-  checkNamesOf(joints, "joint");
-  checkNamesOf(ranges, "range finder");
-  checkNamesOf(switches, "switch");
-  checkNamesOf(actuators, "actuator");
+  checkTopicNames(joints, "base: the joint");
+  checkTopicNames(ranges, "base: the range finder");
+  checkTopicNames(switches, "base: the switch");
+  checkTopicNames(actuators, "base: the actuator");
 }
 
 void BaseBridgeParams::describe(ParameterVisitor& visitor) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include <algorithm>
@@ -18,12 +19,20 @@ inline bool asksForHelp(int argc, char** argv) {
 }
 
 /// robot.launch starts a node whatever the rig file holds, with `~if_in_rig`: where its section is missing
-/// the node says so and rests. Returns whether it did, up to the end.
+/// the node says so, in diagnostics as well, and rests. Returns whether it did, up to the end.
 inline bool restsWithout(const char* section) {
   const ros::NodeHandle private_handle("~");
   if (!private_handle.param("if_in_rig", false)) return false;
   if (!RigFile::load(private_handle.param<std::string>("rig", "")).section(section).IsNull()) return false;
-  ROS_INFO("the rig file has no section `%s`: nothing to do", section);
+  const std::string text = "the rig file has no section `" + std::string(section) + "`: nothing to do";
+  ROS_INFO_STREAM(text);
+  diagnostic_updater::Updater updater;
+  updater.setHardwareID("none");
+  updater.add("rests", [&text](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, text);
+  });
+  const ros::WallTimer timer = ros::NodeHandle().createWallTimer(
+      ros::WallDuration(1.0), [&updater](const ros::WallTimerEvent&) { updater.update(); });
   ros::spin();
   return true;
 }

@@ -1,6 +1,7 @@
 #include "fuzz/base_fuzz.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -59,11 +60,14 @@ void parse(const Bytes& stream) {
 void control(const Bytes& stream) {
   ControllerSetup setup{};
   setup.wheels = 2;
+  setup.is_steered[0] = true;
+  setup.steering_gains = {15.0F, 8.0F, 0.008F, {0.1F, 0.05F, 0.1F, 2.0F, 10.0F}};
   BaseController controller(setup);
   std::uint32_t now_ms = 0;
   for (const std::uint8_t byte : stream) {
     controller.receive(byte, now_ms);
-    controller.step(ControllerInputs{}, ++now_ms, 0.001F);
+    const ControllerOutputs& outputs = controller.step(ControllerInputs{}, ++now_ms, 0.001F);
+    require(std::abs(outputs.duty[0]) <= 1.0F && std::abs(outputs.steering_duty[0]) <= 1.0F);
     require(controller.mode() == Mode::kDriving || controller.heldSpeed_mm_per_s(0) == 0);
   }
 }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <functional>
 
+#include "fuzz/base_fuzz.h"
 #include "sensors/imu/frame_decoder.h"
 #include "sensors/laser/rplidar_session.h"
 #include "sensors/laser/scan_decoder.h"
@@ -114,6 +115,8 @@ bool decodeFuzzInput(const std::string& kind, const std::uint8_t* data, std::siz
     decodeLaser(data, size);
   } else if (kind == "tfmini") {
     parseTfmini(data, size);
+  } else if (kind == "base") {
+    base::parseFuzzInput(data, size);
   } else {
     return false;
   }

@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "core/rig_file.h"
-#include "fuzz/base_fuzz.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/parameters.h"
 #include "stereo_nav/ros/conversions.h"
@@ -161,10 +160,7 @@ void readFuzzInput(const std::string& kind, const std::uint8_t* data, std::size_
       {"rig", readRig},
       {"times", readTimes},
       {"names", readNames},
-      {"bag", readBag},
-      {"base", [](const std::string& bytes) {
-         base::parseFuzzInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-       }}};
+      {"bag", readBag}};
   try {
     readers.at(kind)(std::string(reinterpret_cast<const char*>(data), size));
   } catch (const InputError&) {

@@ -89,7 +89,7 @@ TEST(Operation, NodesStartInAnyOrder) {
 
 class Rviz : public testing::TestWithParam<const char*> {};
 
-TEST_P(Rviz, ShowsAllOfTheOdometry) {
+TEST_P(Rviz, ShowsAllOfTheOdometryAndTheSensorsOfTheBase) {
   // roslaunch starts the master: were rviz to be started again, the next one knows no subscribers of the
   // first.
   const OwnMaster master;
@@ -99,8 +99,12 @@ TEST_P(Rviz, ShowsAllOfTheOdometry) {
   ForeignProgram rviz("rviz", "export DISPLAY=:" + std::to_string(std::atoi(screen.output().c_str())) +
                                   " LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1; " + kRos +
                                   "exec roslaunch " LAUNCH_FOLDER "/visualise.launch view:=" + GetParam());
-  for (const std::string topic : {"/path", "/odom", "/vo/features", "/vo/debug_image", "/vo/disparity_view",
-                                  "/ground_truth/odom", "/tf", "/tf_static"}) {
+  std::vector<std::string> topics = {
+      "/path", "/odom",     "/vo/features", "/vo/debug_image", "/vo/disparity_view", "/ground_truth/odom",
+      "/tf",   "/tf_static"};
+  if (std::string(GetParam()) == "robot")
+    topics.insert(topics.end(), {"/scan", "/range/front", "/range/rear", "/range/left", "/range/right"});
+  for (const std::string& topic : topics) {
     const auto isSubscribed = [&topic] {
       return runCommand(kRos + "rostopic info " + topic).output.find("* /rviz") != std::string::npos;
     };
@@ -132,6 +136,9 @@ TEST(Operation, AMistakeInTheRigFileIsNamed) {
       {"mounting: {camera: {z_m: 283}}", "mounting: camera.z_m is 283, allowed is -100 to 100 m"},
       {"mounting: {camera: {z_m: high}}", "mounting: camera.z_m is 'high', must be a number"},
       {"disparity: {disparity_range: 8}", "disparity: disparity_range is 8, allowed is 32 to 4096 px"},
+      {"base: {ranges: 1, range_1: {name: front}}\nrange_finders: {finders: 1, finder_1: {name: front}}",
+       "two sensors have the frame 'range_front'"},
+      {"range_finders: {finders: 1, finder_1: {name: a/b}}", "name 'a/b' cannot be part of a topic"},
       {"just a text", "a rig file holds sections"},
   };
   for (const auto& [rig, message] : mistakes) {

@@ -4,18 +4,21 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/Range.h>
 #include <std_msgs/Float64.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_listener.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
+#include <vector>
 
+#include "rostest/diagnostics_probe.h"
 #include "support/ros_wait.h"
 
 namespace stereo_nav::test {
@@ -46,16 +49,71 @@ TEST(RobotBase, AVelocityBecomesOdometryOfTheWheels) {
       << x_m;
 }
 
-TEST(RobotBase, TheLaserScansAndRangeFindersThatTheRigFileLacksRest) {
+/// A point that a sensor sees, in base_link by the frame that its message names.
+std::optional<Eigen::Vector3d> inBase(const tf2_ros::Buffer& buffer, const std::string& frame, double x_m) {
+  const auto T_base_sensor = transform(buffer, frame);
+  if (!T_base_sensor) return std::nullopt;
+  return *T_base_sensor * Eigen::Vector3d(x_m, 0.0, 0.0);
+}
+
+TEST(RobotBase, LaserScannerAndRangeFindersAreWhereTheRigFileSays) {
   ros::NodeHandle handle;
-  std::size_t beams = 0;
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  sensor_msgs::LaserScan scan;
   const ros::Subscriber scans = handle.subscribe<sensor_msgs::LaserScan>(
-      "scan", 10, [&](const sensor_msgs::LaserScan::ConstPtr& scan) { beams = scan->ranges.size(); });
-  EXPECT_TRUE(spinUntil([&] { return beams == 90; })) << beams;
-  ros::V_string nodes;
-  ASSERT_TRUE(ros::master::getNodes(nodes));
-  EXPECT_NE(std::find(nodes.begin(), nodes.end(), "/range_bridge"), nodes.end())
-      << "it rests, and does not end";
+      "scan", 10, [&](const sensor_msgs::LaserScan::ConstPtr& message) { scan = *message; });
+  std::map<std::string, sensor_msgs::Range> ranges;
+  std::vector<ros::Subscriber> subscribers;
+  for (const std::string name : {"left", "front"})
+    subscribers.push_back(handle.subscribe<sensor_msgs::Range>(
+        "range/" + name, 10,
+        [&ranges, name](const sensor_msgs::Range::ConstPtr& message) { ranges[name] = *message; }));
+  EXPECT_TRUE(spinUntil([&] { return scan.ranges.size() == 90 && ranges.size() == 2; })) << ranges.size();
+  // The scanner looks backwards, the one range finder to the left, that of the base forwards.
+  const std::vector<std::tuple<std::string, double, Eigen::Vector3d>> seen = {
+      {scan.header.frame_id, 1.0, {-1.0, 0.0, 0.4}},
+      {ranges["left"].header.frame_id, ranges["left"].range, {0.0, 1.7, 0.0}},
+      {ranges["front"].header.frame_id, ranges["front"].range, {2.2, 0.0, 0.1}}};
+  for (const auto& [frame, distance_m, expected] : seen) {
+    EXPECT_TRUE(spinUntil([&, &frame = frame] { return transform(buffer, frame).has_value(); })) << frame;
+    const auto point = inBase(buffer, frame, distance_m);
+    ASSERT_TRUE(point) << frame;
+    EXPECT_TRUE(point->isApprox(expected, 1e-6)) << frame << " " << point->transpose();
+  }
+}
+
+TEST(RobotBase, EachPartHasItsGroupOfDiagnostics) {
+  DiagnosticsProbe groups("/diagnostics_agg");
+  for (const std::string state :
+       {"Base/base_bridge: base", "Base/cmd_vel_mux: cmd_vel", "Laser/laser_bridge: laser",
+        "Ranges/range_bridge: range left", "Odometry/wheel_odometry: wheel odometry",
+        "Mounting/rig_transforms: mounting", "Recording/recorder: recording"})
+    EXPECT_TRUE(spinUntil([&] { return groups.has("/stereo_nav/" + state); })) << state << "\n"
+                                                                               << groups.names();
+  for (const std::string part : {"Base", "Laser", "Ranges"})
+    EXPECT_TRUE(spinUntil([&] { return groups.levelOf("/stereo_nav/" + part) == 0; })) << part;
+}
+
+/// The recorder has the topics of everything that the rig file names.
+TEST(RobotBase, AllThatTheBaseSendsIsRecorded) {
+  std::set<std::string> recorded;
+  EXPECT_TRUE(spinUntil([&] {
+    XmlRpc::XmlRpcValue request, response, payload;
+    request[0] = ros::this_node::getName();
+    if (!ros::master::execute("getSystemState", request, response, payload, false)) return false;
+    recorded.clear();
+    for (int i = 0; i < payload[1].size(); ++i) {
+      for (int j = 0; j < payload[1][i][1].size(); ++j) {
+        const std::string topic = payload[1][i][0], node = payload[1][i][1][j];
+        if (node == "/recorder") recorded.insert(topic);
+      }
+    }
+    return recorded.count("/range/left") != 0;
+  }));
+  for (const std::string topic : {"/scan", "/wheel_ticks", "/joint_states", "/battery", "/range/front",
+                                  "/joints/camera_tilt", "/cmd_vel", "/tf_static"})
+    EXPECT_EQ(recorded.count(topic), 1U) << topic;
 }
 
 TEST(RobotBase, TheCamerasTurnWithTheServoThatCarriesThem) {
@@ -98,7 +156,9 @@ TEST(RobotBase, EachTransformHasOnePublisher) {
       {"camera_tilt_link", "/tf of /robot_state_publisher"},
       {"imu_link", "/tf_static of /rig_transforms"},
       {"camera_left_optical", "/tf_static of /rig_transforms"},
-      {"range_front", "/tf_static of /rig_transforms"}};
+      {"range_front", "/tf_static of /rig_transforms"},
+      {"scanner", "/tf_static of /rig_transforms"},
+      {"range_left", "/tf_static of /rig_transforms"}};
   EXPECT_TRUE(spinUntil([&] { return publishers.size() >= expected.size(); }));
   for (const auto& [frame, publisher] : expected)
     EXPECT_EQ(publishers[frame], std::set<std::string>{publisher}) << frame;

@@ -29,6 +29,16 @@ TEST(RobotDevices, EachMissingDeviceIsNamed) {
   EXPECT_EQ(diagnostics.levelOf("rig_transforms: mounting"), 0);
 }
 
+/// A node that has nothing to do is told from one that has ended.
+TEST(RobotDevices, WhatTheRigFileLacksRestsAndSaysSo) {
+  const DiagnosticsProbe diagnostics;
+  for (const std::string name :
+       {"base_bridge", "cmd_vel_mux", "laser_bridge", "range_bridge", "wheel_odometry"})
+    EXPECT_TRUE(spinUntil([&] { return diagnostics.says(name + ": rests", "the rig file has no section"); }))
+        << name << "\n"
+        << diagnostics.names();
+}
+
 /// The rig file overrides config/; a parameter that neither of them sets has its default.
 TEST(RobotDevices, TheRigFileGoesBeforeTheConfiguration) {
   const auto become = [&](const std::string& name, double expected) {

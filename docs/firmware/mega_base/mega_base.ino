@@ -1,5 +1,6 @@
-// Base of four driven wheels on an Arduino Mega 2560: the protocol of docs/base.md at 500000 baud, a speed loop for each wheel,
-// a servo, two TFmini range finders, two switches, the battery, a motor. Not tried on hardware.
+// Base of four driven wheels, which may be steered, on an Arduino Mega 2560: the protocol of docs/base.md at 500000 baud, a speed loop
+// for each wheel and an angle loop for each steered axis, a servo, two TFmini range finders, two switches, the battery, a motor.
+// Not tried on hardware.
 //
 // Everything but the pins is in src/ (a link to src/sensors/base/controller: copy the folder where your system has no links), which
 // the emulator and the tests run, too. The registers are used directly, since the timers have to make 20 kHz: open it in the
@@ -7,8 +8,10 @@
 //
 // | what | pins of the wheels 1 to 4 |
 // |---|---|
-// | encoder, A and B | 19 and 22, 18 and 23, 2 and 24, 3 and 25 |
+// | encoder, A and B | 21 and 22, 20 and 23, 19 and 24, 18 and 25 |
 // | motor driver, PWM (20 kHz) and direction | 6 and 26, 7 and 27, 8 and 28, 46 and 29 |
+// | where steered: its motor driver, PWM (20 kHz) and direction | 5 and 36, 2 and 35, 3 and 34, 44 and 33 |
+// | where steered: absolute sensor of the axis, 0 to 5 V in a turn | A1, A2, A3, A4 |
 //
 // Motor of the actuator: PWM 45, direction 32. Servo: 11. TFmini: TX to 17 and to 15. Switches: 30 and 31, to ground. Battery: A0,
 // behind 33 kOhm and 10 kOhm. Each PWM pin gets 10 kOhm to ground, so that the motors stand while the controller starts. A switch
@@ -28,9 +31,18 @@ static const uint8_t kWheels = 4, kJoints = 1, kRanges = 2, kActuators = 1;
 // Both edges of A are counted: twice the lines of the encoder, times the gear.
 static const float kMetresPerPulse[kWheels] = {0.000307F, 0.000307F, 0.000307F, 0.000307F};
 static const bool kMotorReversed[kWheels] = {false, true, false, true};
+// A swerve drive has four steered wheels, a car two. The axis turns counterclockwise, seen from above, where its sensor's voltage rises
+// or, reversed, falls; kSteeringZero is what the sensor reads, 0 to 1023, where the wheel looks forward.
+static const bool kSteered[kWheels] = {false, false, false, false};
+static const bool kSteeringSensorReversed[kWheels] = {false, false, false, false};
+static const bool kSteeringMotorReversed[kWheels] = {false, false, false, false};
+static const uint16_t kSteeringZero[kWheels] = {0, 0, 0, 0};
 // Find the first two with the wheels in the air: friction_duty just turns a wheel, (duty - friction_duty) / speed is
 // duty_per_speed. Raise `proportional` until the wheel hums, and halve it.
 static const SpeedLoopGains kGains = {0.5F, 0.05F, 1.5F, 3.0F, 10.0F};
+// Of the steered axes, likewise, with rad/s in place of m/s. 15: the axis shall turn by 15 rad/s for each radian that is missing, at most
+// by 8; within 0.008 rad, above a step of the sensor, it rests.
+static const SteeringLoopGains kSteeringGains = {15.0F, 8.0F, 0.008F, {0.083F, 0.05F, 0.1F, 2.0F, 10.0F}};
 static const float kServoMicroradPerTick = 785.4F;  // of 0.5 us; 90 degrees for 1 ms
 static const float kBatteryMillivoltsPerCount = 5000.0F / 1024.0F * 4.3F;
 static const uint16_t kRangeMin_mm = 100, kRangeMax_mm = 12000;  // TFmini Plus
@@ -46,10 +58,10 @@ static volatile uint32_t milliseconds;
 
 // A turns: forwards where it now equals B.
 static void count(uint8_t wheel, bool a, bool b) { pulses[wheel] += a == b ? 1 : -1; }
-ISR(INT2_vect) { count(0, PIND & _BV(2), PINA & _BV(0)); }
-ISR(INT3_vect) { count(1, PIND & _BV(3), PINA & _BV(1)); }
-ISR(INT4_vect) { count(2, PINE & _BV(4), PINA & _BV(2)); }
-ISR(INT5_vect) { count(3, PINE & _BV(5), PINA & _BV(3)); }
+ISR(INT0_vect) { count(0, PIND & _BV(0), PINA & _BV(0)); }
+ISR(INT1_vect) { count(1, PIND & _BV(1), PINA & _BV(1)); }
+ISR(INT2_vect) { count(2, PIND & _BV(2), PINA & _BV(2)); }
+ISR(INT3_vect) { count(3, PIND & _BV(3), PINA & _BV(3)); }
 ISR(TIMER2_COMPA_vect) { ++milliseconds; }
 
 // Bytes that wait between an interrupt and the loop. 256 of them: the indices wrap by themselves.
@@ -109,14 +121,39 @@ static Tfmini finders[kRanges];
 ISR(USART2_RX_vect) { finders[0].receive(UDR2); }
 ISR(USART3_RX_vect) { finders[1].receive(UDR3); }
 
+// The battery on A0 and the steering sensors on A1 to A4, in turn: each every 0.5 ms.
+static const uint8_t kAnalogInputs = 1 + kWheels;
+static volatile uint16_t analog[kAnalogInputs];
+
+ISR(ADC_vect) {
+  static uint8_t input = 0;
+  analog[input] = ADC;
+  input = static_cast<uint8_t>((input + 1) % kAnalogInputs);
+  ADMUX = static_cast<uint8_t>(_BV(REFS0) | input);
+  ADCSRA |= _BV(ADSC);
+}
+
+static TurnCounter turns[kWheels];
+
+static int32_t steeringAngle(uint8_t wheel, uint16_t counts) {
+  static const uint16_t kCountsPerTurn = 1024;
+  if (!kSteered[wheel]) return 0;
+  const int32_t angle_urad = turns[wheel].angle_urad(counts, kSteeringZero[wheel], kCountsPerTurn);
+  return kSteeringSensorReversed[wheel] ? -angle_urad : angle_urad;
+}
+
 static ControllerSetup describeBase() {
   ControllerSetup setup = ControllerSetup();
   setup.wheels = kWheels;
   setup.joints = kJoints;
   setup.ranges = kRanges;
   setup.actuators = kActuators;
-  for (uint8_t i = 0; i < kWheels; ++i) setup.metres_per_pulse[i] = kMetresPerPulse[i];
+  for (uint8_t i = 0; i < kWheels; ++i) {
+    setup.metres_per_pulse[i] = kMetresPerPulse[i];
+    setup.is_steered[i] = kSteered[i];
+  }
   setup.gains = kGains;
+  setup.steering_gains = kSteeringGains;
   return setup;
 }
 
@@ -125,14 +162,16 @@ static ControllerOutputs outputs = ControllerOutputs();
 
 static ControllerInputs measure() {
   ControllerInputs inputs = ControllerInputs();
+  uint16_t read[kAnalogInputs];
   ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
     for (uint8_t i = 0; i < kWheels; ++i) inputs.pulses[i] = pulses[i];
     for (uint8_t i = 0; i < kRanges; ++i) inputs.range_mm[i] = finders[i].distance_mm;
+    for (uint8_t i = 0; i < kAnalogInputs; ++i) read[i] = analog[i];
   }
+  for (uint8_t i = 0; i < kWheels; ++i) inputs.steering_urad[i] = steeringAngle(i, read[1 + i]);
   inputs.joint_urad[0] = outputs.joint_urad[0];  // a servo does not tell where it is
   inputs.switches = static_cast<uint16_t>((PINC & _BV(7) ? 0 : 1) | (PINC & _BV(6) ? 0 : 2));
-  inputs.battery_mV = static_cast<uint16_t>(ADC * kBatteryMillivoltsPerCount);
-  ADCSRA |= _BV(ADSC);
+  inputs.battery_mV = static_cast<uint16_t>(read[0] * kBatteryMillivoltsPerCount);
   return inputs;
 }
 
@@ -148,8 +187,17 @@ static void setMotor(uint8_t wheel, float duty) {
   *compare[wheel] = dutyTicks(duty);
 }
 
+static void setSteeringMotor(uint8_t wheel, float duty) {
+  volatile uint16_t* const compare[kWheels] = {&OCR3A, &OCR3B, &OCR3C, &OCR5C};
+  setPin(PORTC, static_cast<uint8_t>(1 + wheel), (duty < 0.0F) != kSteeringMotorReversed[wheel]);
+  *compare[wheel] = dutyTicks(duty);
+}
+
 static void act() {
-  for (uint8_t i = 0; i < kWheels; ++i) setMotor(i, outputs.duty[i]);
+  for (uint8_t i = 0; i < kWheels; ++i) {
+    setMotor(i, outputs.duty[i]);
+    setSteeringMotor(i, outputs.steering_duty[i]);
+  }
   const float level = 1e-3F * outputs.actuator_permille[0];
   setPin(PORTC, 5, level < 0.0F);
   OCR5B = dutyTicks(level);
@@ -176,11 +224,13 @@ static void setUpSerial() {
 }
 
 static void setUpTimers() {
-  // 4 and 5: phase correct up to ICR, no prescaler. 1: servo, 20 ms of 0.5 us. 2: 1 ms.
-  ICR4 = ICR5 = kPwmTop;
+  // 3, 4 and 5: phase correct up to ICR, no prescaler. 1: servo, 20 ms of 0.5 us. 2: 1 ms.
+  ICR3 = ICR4 = ICR5 = kPwmTop;
+  TCCR3A = _BV(COM3A1) | _BV(COM3B1) | _BV(COM3C1) | _BV(WGM31);
+  TCCR3B = _BV(WGM33) | _BV(CS30);
   TCCR4A = _BV(COM4A1) | _BV(COM4B1) | _BV(COM4C1) | _BV(WGM41);
   TCCR4B = _BV(WGM43) | _BV(CS40);
-  TCCR5A = _BV(COM5A1) | _BV(COM5B1) | _BV(WGM51);
+  TCCR5A = _BV(COM5A1) | _BV(COM5B1) | _BV(COM5C1) | _BV(WGM51);
   TCCR5B = _BV(WGM53) | _BV(CS50);
   ICR1 = 39999;
   OCR1A = kServoMiddle;
@@ -194,19 +244,18 @@ static void setUpTimers() {
 
 static void setUpPins() {
   DDRH = _BV(3) | _BV(4) | _BV(5);  // PWM 6, 7, 8
-  DDRL = _BV(3) | _BV(4);           // PWM 46, 45
+  DDRL = _BV(3) | _BV(4) | _BV(5);  // PWM 46, 45, 44
+  DDRE |= _BV(3) | _BV(4) | _BV(5);  // PWM 5, 2, 3
   DDRA = 0xF0;                      // directions 26 to 29; 22 to 25 are the encoders' B
   PORTA = 0x0F;
-  DDRC = _BV(5);                    // direction 32
+  DDRC = _BV(5) | 0x1E;             // directions 32 and, of the steered axes, 36 to 33
   PORTC = _BV(7) | _BV(6);          // pull-ups of the switches 30 and 31
   DDRB |= _BV(5);                   // servo 11
-  PORTD |= _BV(2) | _BV(3);         // pull-ups of the encoders' A
-  PORTE |= _BV(4) | _BV(5);
-  EICRA = _BV(ISC20) | _BV(ISC30);  // both edges
-  EICRB = _BV(ISC40) | _BV(ISC50);
-  EIMSK = _BV(INT2) | _BV(INT3) | _BV(INT4) | _BV(INT5);
+  PORTD |= 0x0F;                    // pull-ups of the encoders' A
+  EICRA = _BV(ISC00) | _BV(ISC10) | _BV(ISC20) | _BV(ISC30);  // both edges
+  EIMSK = _BV(INT0) | _BV(INT1) | _BV(INT2) | _BV(INT3);
   ADMUX = _BV(REFS0);
-  ADCSRA = _BV(ADEN) | _BV(ADSC) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0);
+  ADCSRA = _BV(ADEN) | _BV(ADSC) | _BV(ADIE) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0);
 }
 
 void setup() {

@@ -22,7 +22,11 @@ constexpr const char* kScan = "scan";                 ///< sensor_msgs/LaserScan
 constexpr const char* kJointStates = "joint_states";  ///< sensor_msgs/JointState of wheels and servos
 constexpr const char* kBattery = "battery";           ///< sensor_msgs/BatteryState
 constexpr const char* kRange = "range/";              ///< sensor_msgs/Range, followed by a name
-constexpr const char* kCmdVel = "cmd_vel";            ///< geometry_msgs/Twist that the base follows
+constexpr const char* kSwitch = "switch/";            ///< std_msgs/Bool, followed by a name
+constexpr const char* kJoint = "joints/";             ///< std_msgs/Float64, rad, followed by a name: wanted
+constexpr const char* kActuator = "actuators/";   ///< std_msgs/Float64, -1 to 1, followed by a name: wanted
+constexpr const char* kActuatorState = "/state";  ///< ending of kActuator's topic with the level now
+constexpr const char* kCmdVel = "cmd_vel";        ///< geometry_msgs/Twist that the base follows
 /// Senders of velocities, by rank: cmd_vel_mux lets the first that is heard pass to cmd_vel.
 constexpr const char* kCmdVelStop = "cmd_vel_stop";
 constexpr const char* kCmdVelManual = "cmd_vel_manual";    ///< teleop, operator page

@@ -60,7 +60,7 @@ void BaseBridgeNode::subscribe() {
   subscribers_.push_back(
       handle_.subscribe(ros_io::topics::kCmdVel, 1, &BaseBridgeNode::handleVelocity, this, hints));
   for (std::size_t i = 0; i < params_.joints.size(); ++i) {
-    const std::string topic = "joints/" + params_.joints[i].name;
+    const std::string topic = ros_io::topics::kJoint + params_.joints[i].name;
     subscribers_.push_back(
         handle_.subscribe<Number>(topic, 1, [this, i, topic](const Number::ConstPtr& message) {
           const std::lock_guard<std::mutex> lock(mutex_);
@@ -68,7 +68,7 @@ void BaseBridgeNode::subscribe() {
         }));
   }
   for (std::size_t i = 0; i < params_.actuators.size(); ++i) {
-    const std::string topic = "actuators/" + params_.actuators[i].name;
+    const std::string topic = ros_io::topics::kActuator + params_.actuators[i].name;
     subscribers_.push_back(
         handle_.subscribe<Number>(topic, 1, [this, i, topic](const Number::ConstPtr& message) {
           const std::lock_guard<std::mutex> lock(mutex_);

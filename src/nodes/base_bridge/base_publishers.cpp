@@ -29,9 +29,10 @@ BasePublishers::BasePublishers(ros::NodeHandle handle, const ros_io::BaseBridgeP
   for (const auto& finder : params_.ranges)
     ranges_.push_back(handle.advertise<sensor_msgs::Range>(ros_io::topics::kRange + finder.name, kQueue));
   for (const auto& item : params_.switches)
-    switches_.push_back(handle.advertise<std_msgs::Bool>("switch/" + item.name, 1, true));
+    switches_.push_back(handle.advertise<std_msgs::Bool>(ros_io::topics::kSwitch + item.name, 1, true));
   for (const auto& item : params_.actuators)
-    actuators_.push_back(handle.advertise<std_msgs::Float64>("actuators/" + item.name + "/state", 1, true));
+    actuators_.push_back(handle.advertise<std_msgs::Float64>(
+        ros_io::topics::kActuator + item.name + ros_io::topics::kActuatorState, 1, true));
 }
 
 void BasePublishers::publish(const base::BaseReading& reading) {

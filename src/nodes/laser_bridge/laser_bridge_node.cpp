@@ -10,8 +10,8 @@
 namespace stereo_nav::nodes {
 namespace {
 
-LaserBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
-  LaserBridgeParams params;
+ros_io::LaserBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
+  ros_io::LaserBridgeParams params;
   ros_io::readParameters(
       {ros_io::fileSource(private_handle, "config"), ros_io::rigSource(private_handle, rig_sections::kLaser),
        ros_io::serverSource(private_handle, {"diagnostic_period"})},

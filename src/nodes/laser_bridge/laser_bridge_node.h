@@ -3,9 +3,10 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
-#include "nodes/laser_bridge/laser_bridge_params.h"
+#include "ros/laser_bridge_params.h"
 #include "ros/link_report.h"
 #include "ros/steady_stamps.h"
+#include "sensors/laser/laser_device.h"
 
 namespace stereo_nav::nodes {
 
@@ -23,7 +24,7 @@ class LaserBridgeNode {
   void watch(const ros::WallTimerEvent& event);
 
   ros::NodeHandle handle_, private_handle_;
-  const LaserBridgeParams params_;
+  const ros_io::LaserBridgeParams params_;
   laser::LaserDevice device_;
   ros::Publisher scan_;
   ros_io::SteadyStamps stamps_;

@@ -10,8 +10,8 @@
 namespace stereo_nav::nodes {
 namespace {
 
-RangeBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
-  RangeBridgeParams params;
+ros_io::RangeBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
+  ros_io::RangeBridgeParams params;
   ros_io::readParameters({ros_io::fileSource(private_handle, "config"),
                           ros_io::rigSource(private_handle, rig_sections::kRangeFinders),
                           ros_io::serverSource(private_handle, {"diagnostic_period"})},
@@ -22,17 +22,16 @@ RangeBridgeParams readNodeParams(const ros::NodeHandle& private_handle) {
 
 }  // namespace
 
-RangeBridgeNode::Finder::Finder(const RangeFinderParams& finder_params, const std::string& by_id_directory)
+RangeBridgeNode::Finder::Finder(const ros_io::RangeFinderParams& finder_params,
+                                const std::string& by_id_directory)
     : params(finder_params),
-      device(finder_params.device, serial::PortFinder(finder_params.port, by_id_directory)) {
-  if (params.frame_id.empty()) params.frame_id = "range_" + params.name;
-}
+      device(finder_params.device, serial::PortFinder(finder_params.port, by_id_directory)) {}
 
 RangeBridgeNode::RangeBridgeNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle), private_handle_(private_handle), updater_(handle_, private_handle_) {
-  const RangeBridgeParams params = readNodeParams(private_handle_);
+  const ros_io::RangeBridgeParams params = readNodeParams(private_handle_);
   updater_.setHardwareID("range finders");
-  for (const RangeFinderParams& finder_params : params.finders) {
+  for (const ros_io::RangeFinderParams& finder_params : params.finders) {
     finders_.push_back(std::make_unique<Finder>(finder_params, params.by_id_directory));
     Finder& finder = *finders_.back();
     finder.publisher = handle_.advertise<sensor_msgs::Range>("range/" + finder.params.name, 10);
@@ -59,7 +58,7 @@ void RangeBridgeNode::read(Finder& finder) {
 void RangeBridgeNode::publish(Finder& finder, const range::RangeReading& reading) {
   sensor_msgs::Range message;
   message.header.stamp = finder.stamps.at(reading.time_s);
-  message.header.frame_id = finder.params.frame_id;
+  message.header.frame_id = finder.params.frame();
   message.radiation_type = sensor_msgs::Range::INFRARED;
   message.field_of_view = static_cast<float>(finder.params.field_of_view_deg * M_PI / 180.0);
   message.min_range = static_cast<float>(finder.params.device.range_min_m);

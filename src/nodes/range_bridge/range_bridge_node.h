@@ -8,9 +8,10 @@
 #include <thread>
 #include <vector>
 
-#include "nodes/range_bridge/range_bridge_params.h"
 #include "ros/link_report.h"
+#include "ros/range_bridge_params.h"
 #include "ros/steady_stamps.h"
+#include "sensors/range/range_device.h"
 
 namespace stereo_nav::nodes {
 
@@ -25,9 +26,9 @@ class RangeBridgeNode {
 
  private:
   struct Finder {
-    Finder(const RangeFinderParams& finder_params, const std::string& by_id_directory);
+    Finder(const ros_io::RangeFinderParams& finder_params, const std::string& by_id_directory);
 
-    RangeFinderParams params;
+    const ros_io::RangeFinderParams params;
     range::RangeDevice device;
     ros::Publisher publisher;
     ros_io::SteadyStamps stamps;

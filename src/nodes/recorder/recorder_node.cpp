@@ -5,14 +5,13 @@
 #include <sstream>
 
 #include "core/rig_file.h"
+#include "nodes/recorder/recorded_topics.h"
 #include "ros/parameter_server.h"
-#include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::nodes {
 namespace {
 
 namespace fs = std::filesystem;
-namespace topics = ros_io::topics;
 
 constexpr double kPeriod_s = 1.0;
 constexpr double kRepeat_s = 30.0;
@@ -25,11 +24,21 @@ RecorderParams readParams(const ros::NodeHandle& private_handle) {
   return params;
 }
 
-/// The rig file names the range finders.
-ros_io::BaseBridgeParams readBase(const ros::NodeHandle& private_handle) {
-  ros_io::BaseBridgeParams base;
-  ros_io::readParameters({ros_io::rigSource(private_handle, rig_sections::kBase)}, base);
-  return base;
+/// A section of the rig file, which names servos, range finders, switches and actuators.
+template <class Params>
+Params readSection(const ros::NodeHandle& private_handle, const char* section) {
+  Params params;
+  ros_io::readParameters({ros_io::rigSource(private_handle, section)}, params);
+  return params;
+}
+
+std::vector<std::string> readTopics(const ros::NodeHandle& private_handle, const RecorderParams& params) {
+  auto names =
+      recordedTopics(readSection<ros_io::BaseBridgeParams>(private_handle, rig_sections::kBase),
+                     readSection<ros_io::RangeBridgeParams>(private_handle, rig_sections::kRangeFinders),
+                     params.more_topics);
+  for (auto& name : names) name = ros::names::resolve(name);
+  return names;
 }
 
 /// Absolute path of the folder, so that messages about it are clear: roslaunch starts nodes in ROS_HOME.
@@ -48,20 +57,6 @@ fs::path makeFolder(const RecorderParams& params) {
     throw ParameterError(text.str());
   }
   return folder;
-}
-
-/// Everything that is needed to run the odometry on the recording later, and the robot's diagnostics.
-std::vector<std::string> recordedTopics(const RecorderParams& params, const ros_io::BaseBridgeParams& base) {
-  std::vector<std::string> names = {
-      topics::kScan,          topics::kWheelTicks,  topics::kJointStates, topics::kBattery,
-      topics::kCmdVel,        topics::kLeftImage,   topics::kRightImage,  topics::kLeftInfo,
-      topics::kRightInfo,     topics::kSync,        topics::kImu,         "imu/data_raw",
-      topics::kImuQuaternion, topics::kGroundTruth, "/tf_static",         "/diagnostics"};
-  for (const auto& range : base.ranges) names.push_back(topics::kRange + range.name);
-  std::istringstream more(params.more_topics);
-  for (std::string name; std::getline(more, name, ',');) names.push_back(name);
-  for (auto& name : names) name = ros::names::resolve(name);
-  return names;
 }
 
 std::uint64_t toBytes(double gigabytes) {
@@ -86,7 +81,7 @@ void RecorderParams::describe(ParameterVisitor& visitor) {
 RecorderNode::RecorderNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle),
       params_(readParams(private_handle)),
-      base_(readBase(private_handle)),
+      topics_(readTopics(private_handle, params_)),
       folder_(makeFolder(params_)),
       bytes_before_(recordedBytes()),
       disk_(toBytes(params_.reserve_gb), 60.0 * params_.warn_before_min),
@@ -100,7 +95,7 @@ int RecorderNode::run() {
   constexpr unsigned int kMebi = 1024 * 1024;
   rosbag::RecorderOptions options;
   options.prefix = (folder_ / params_.prefix).string();
-  options.topics = recordedTopics(params_, base_);
+  options.topics = topics_;
   options.split = true;
   options.max_size = static_cast<std::uint64_t>(params_.split_mb) * kMebi;
   options.buffer_size = static_cast<std::uint32_t>(params_.buffer_mb) * kMebi;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "nodes/recorder/disk_watch.h"
-#include "ros/base_bridge_params.h"
 #include "stereo_nav/core/parameter_visitor.h"
 
 namespace stereo_nav::nodes {
@@ -42,7 +41,7 @@ class RecorderNode {
 
   ros::NodeHandle handle_;
   RecorderParams params_;
-  ros_io::BaseBridgeParams base_;
+  std::vector<std::string> topics_;
   std::filesystem::path folder_;
   std::string unreadable_;      ///< why the folder cannot be read; empty while it can
   std::uint64_t bytes_before_;  ///< size of earlier recordings in the same folder

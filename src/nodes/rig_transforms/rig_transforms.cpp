@@ -10,6 +10,7 @@
 #include "odometry/wheel/wheel_odometry_params.h"
 #include "ros/capture_setup.h"
 #include "ros/imu_bridge_params.h"
+#include "ros/laser_bridge_params.h"
 #include "ros/node_program.h"
 #include "ros/parameter_server.h"
 #include "ros/robot_description.h"
@@ -18,7 +19,6 @@
 namespace stereo_nav::nodes {
 namespace {
 
-using ros_io::BaseBridgeParams;
 using ros_io::RobotGeometry;
 
 /// Sections that other nodes read are checked here, too, so that this node reports every mistake in the file.
@@ -33,17 +33,28 @@ void checkSections(const ros::NodeHandle& private_handle) {
   if (!rig.section(rig_sections::kDrive).IsNull()) odometry::loadWheelOdometry("", rig);
 }
 
+template <class Params>
+Params readSection(const RigFile& rig, const char* section) {
+  Params params;
+  stereo_nav::readParameters(rig.section(section), rig.sectionName(section), params);
+  return params;
+}
+
 RobotGeometry readGeometry(const RigTransformsParams& params, const RigFile& rig) {
   RobotGeometry robot;
   robot.mounting = rig.mounting();
   robot.base_frame = params.base_frame;
   robot.camera_frame = params.camera_frame;
   robot.imu_frame = params.imu_frame;
-  BaseBridgeParams base;
-  stereo_nav::readParameters(rig.section(rig_sections::kBase), rig.sectionName(rig_sections::kBase), base);
+  const auto base = readSection<ros_io::BaseBridgeParams>(rig, rig_sections::kBase);
   base.checkNames();
   robot.joints = base.joints;
   robot.ranges = base.ranges;
+  if (!rig.section(rig_sections::kLaser).IsNull())
+    robot.laser_frame = readSection<ros_io::LaserBridgeParams>(rig, rig_sections::kLaser).frame_id;
+  const auto ranges = readSection<ros_io::RangeBridgeParams>(rig, rig_sections::kRangeFinders);
+  ranges.checkNames();
+  robot.range_finders = ranges.finders;
   if (!rig.section(rig_sections::kDrive).IsNull()) robot.drive = kinematics::readDrive(rig);
   return robot;
 }
@@ -62,7 +73,6 @@ int run() {
   const auto rig = private_handle.param<std::string>("rig", "");
   if (rig.empty()) throw ParameterError("~rig is not set; it is the path of the rig file");
   const RobotGeometry robot = readGeometry(params, RigFile::load(rig));
-  const Mounting& mounting = robot.mounting;
   checkSections(private_handle);
 
   handle.setParam("robot_description", ros_io::robotDescription(robot));
@@ -75,8 +85,11 @@ int run() {
   updater.setHardwareID("none");
   updater.add("mounting", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "from " + rig);
-    addPose(status, "camera", mounting.camera);
-    addPose(status, "IMU", mounting.imu);
+    addPose(status, "camera", robot.mounting.camera);
+    addPose(status, "IMU", robot.mounting.imu);
+    if (!robot.laser_frame.empty()) addPose(status, "laser scanner", robot.mounting.laser);
+    for (const auto& range : robot.ranges) addPose(status, range.frame(), range.mounting);
+    for (const auto& finder : robot.range_finders) addPose(status, finder.frame(), finder.mounting);
   });
   const ros::WallTimer timer =
       handle.createWallTimer(ros::WallDuration(1.0), [&](const ros::WallTimerEvent&) { updater.update(); });

@@ -21,11 +21,11 @@ constexpr double kCameraTurned_rad = 0.2 * kRadPerDeg;
 constexpr double kCameraMoved_m = 0.002;
 
 std::optional<Eigen::Isometry3d> lookUp(const TransformLookup& lookup, const std::string& base_frame,
-                                        const std::string& sensor_frame, bool is_camera,
-                                        std::string& problem) {
+                                        const std::string& sensor_frame, const ros::Time& time,
+                                        bool is_camera, std::string& problem) {
   if (sensor_frame == base_frame) return Eigen::Isometry3d::Identity();
   std::string error;
-  auto transform = lookup(base_frame, sensor_frame, error);
+  auto transform = lookup(base_frame, sensor_frame, time, error);
   if (!transform) problem = ros_io::missingTransform(base_frame, sensor_frame, is_camera, error);
   return transform;
 }
@@ -45,7 +45,7 @@ SessionOutput OdometrySession::process(const ros_io::Inbox::Work& work, const Se
   if (!imu_frame_.empty()) {
     for (const ImuSample& sample : work.imu) odometry_->addImu(sample);
   }
-  if (std::exchange(level_next_, false)) level(output.images.left_time_s, output);
+  if (std::exchange(begins_, false)) level(output.images.left_time_s, output);
   output.result = odometry_->process(output.images);
   output.base = base_->update(output.result, output.images.left_time_s);
   output.processed = true;
@@ -66,7 +66,7 @@ void OdometrySession::applyLive(const VisualOdometryParams& params) {
 
 void OdometrySession::reset() {
   startAgain(Eigen::Isometry3d::Identity(), Matrix6d::Zero());
-  level_next_ = true;
+  begins_ = true;
 }
 
 bool OdometrySession::setPose(const Eigen::Isometry3d& T_odom_base, const Matrix6d& covariance) {
@@ -116,16 +116,22 @@ bool OdometrySession::prepareCameras(const ros_io::FrameMessages& frame, const S
   }
   const bool same = odometry_ && ros_io::sameCamera(*left_info_, *setup.left_info) &&
                     ros_io::sameCamera(*right_info_, *setup.right_info);
-  if (same) return cameraIsInPlace(output);
+  const std::string motion = same ? cameraMotion(frame.left_stamp) : "";
+  if (same && motion.empty()) return true;
+  if (same && !begins_) {
+    output.errors["camera_moves"] = motion;
+    return false;
+  }
 
   const std::string camera_frame = ros_io::withoutSlash(frame.left->header.frame_id);
   std::string problem;
-  const auto T_base_camera = lookUp(lookup_, params_.base_frame, camera_frame, true, problem);
+  const auto T_base_camera =
+      lookUp(lookup_, params_.base_frame, camera_frame, frame.left_stamp, true, problem);
   if (!T_base_camera) {
     output.errors["camera_transform"] = problem;
     return false;
   }
-  if (odometry_)
+  if (odometry_ && !same)
     output.announcements.push_back("the camera_infos changed; the odometry starts anew at its last pose");
   left_info_ = setup.left_info;
   right_info_ = setup.right_info;
@@ -135,30 +141,29 @@ bool OdometrySession::prepareCameras(const ros_io::FrameMessages& frame, const S
   return true;
 }
 
-/// A camera on a servo: its motion would be taken for one of the base.
-bool OdometrySession::cameraIsInPlace(SessionOutput& output) const {
+/// What a camera on a servo did since the odometry began, which would be taken for a motion of the base;
+/// empty while it is in its place.
+std::string OdometrySession::cameraMotion(const ros::Time& stamp) const {
   std::string problem;
-  const auto now = lookUp(lookup_, params_.base_frame, camera_frame_, true, problem);
-  if (!now) return true;  // tf may be gone for a while
+  const auto now = lookUp(lookup_, params_.base_frame, camera_frame_, stamp, true, problem);
+  if (!now) return {};  // tf may be gone for a while
   const Eigen::Isometry3d moved = T_base_camera_.inverse() * *now;
   const double turned_rad = Eigen::AngleAxisd(moved.linear()).angle();
-  if (turned_rad < kCameraTurned_rad && moved.translation().norm() < kCameraMoved_m) return true;
+  if (turned_rad < kCameraTurned_rad && moved.translation().norm() < kCameraMoved_m) return {};
   std::ostringstream text;
   text.precision(3);
-  text
-      << "the camera " << camera_frame_ << " has moved against " << params_.base_frame << " by "
-      << kDegPerRad * turned_rad << " deg and " << 1e3 * moved.translation().norm()
-      << " mm since the odometry began, which would be taken for a motion of the base: turn its joint back, or start the "
-         "odometry anew where the camera is to stay";
-  output.errors["camera_moves"] = text.str();
-  return false;
+  text << "the camera " << camera_frame_ << " has moved against " << params_.base_frame << " by "
+       << kDegPerRad * turned_rad << " deg and " << 1e3 * moved.translation().norm()
+       << " mm since the odometry began, which would be taken for a motion of the base: turn its joint back, "
+          "or call vo/reset where the camera is to stay";
+  return text.str();
 }
 
 bool OdometrySession::prepareImu(const SensorSetup& setup, SessionOutput& output) {
   const std::string imu_frame = ros_io::withoutSlash(setup.imu_frame);
   if (imu_frame == imu_frame_) return true;
   std::string problem;
-  const auto T_base_imu = lookUp(lookup_, params_.base_frame, imu_frame, false, problem);
+  const auto T_base_imu = lookUp(lookup_, params_.base_frame, imu_frame, ros::Time(0), false, problem);
   if (!T_base_imu) {
     // If an IMU appears while the odometry runs without one, the odometry goes on.
     (odometry_ ? output.warnings : output.errors)["imu_transform"] = problem;

@@ -20,10 +20,11 @@
 
 namespace stereo_nav::nodes {
 
-/// Returns the transform that takes coordinates of `source` into `target`. While tf does not know it, returns
-/// nothing and gives the reason in `error`.
+/// Returns the transform that takes coordinates of `source` into `target`, at `time` (0: the newest) or,
+/// while tf does not reach as far, the newest. While tf does not know it at all, returns nothing and gives
+/// the reason in `error`.
 using TransformLookup = std::function<std::optional<Eigen::Isometry3d>(
-    const std::string& target, const std::string& source, std::string& error)>;
+    const std::string& target, const std::string& source, const ros::Time& time, std::string& error)>;
 
 /// Data besides the frames.
 struct SensorSetup {
@@ -60,7 +61,8 @@ class OdometrySession {
   /// Applies changes by dynamic_reconfigure to all later frames.
   void applyLive(const VisualOdometryParams& params);
 
-  /// Resets everything but the mounting; the next frame is the origin.
+  /// Resets everything but the IMU's mounting; the next frame is the origin. A camera on a servo may have
+  /// turned: it is taken where it is now.
   void reset();
   /// Returns false while there is no odometry yet.
   bool setPose(const Eigen::Isometry3d& T_odom_base, const Matrix6d& covariance);
@@ -71,7 +73,7 @@ class OdometrySession {
  private:
   bool prepare(const ros_io::FrameMessages& frame, const SensorSetup& setup, SessionOutput& output);
   bool prepareCameras(const ros_io::FrameMessages& frame, const SensorSetup& setup, SessionOutput& output);
-  bool cameraIsInPlace(SessionOutput& output) const;
+  std::string cameraMotion(const ros::Time& stamp) const;
   bool prepareImu(const SensorSetup& setup, SessionOutput& output);
   void makeOdometry(SessionOutput& output);
   void startAgain(const Eigen::Isometry3d& T_odom_base, const Matrix6d& covariance);
@@ -97,8 +99,8 @@ class OdometrySession {
 
   std::optional<estimation::BaseOdometry> base_;
   RotationHistory imu_history_;  ///< used for levelling
-  bool level_next_ = true;
-  std::string imu_problem_;  ///< why the odometry has set the IMU aside; empty: it has not
+  bool begins_ = true;           ///< no frame since the start or since reset()
+  std::string imu_problem_;      ///< why the odometry has set the IMU aside; empty: it has not
   std::optional<vision::CameraOrderCheck> camera_order_;
   double camera_order_checked_s_ = 0.0;
   std::uint64_t frames_processed_ = 0;

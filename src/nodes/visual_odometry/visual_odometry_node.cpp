@@ -41,16 +41,19 @@ ros_io::FrameSynchroniserParams synchroniserParams(ros_io::FrameSynchroniserPara
 }
 
 /// Waits up to 0.2 s, only once: a bag's transforms and first images arrive at the same time, and its first
-/// frame must be the origin.
+/// frame must be the origin. At the time of an image where tf has it: a servo may have turned since.
 TransformLookup lookupIn(tf2_ros::Buffer& buffer) {
   constexpr int kTries = 20;
   return [&buffer, tries_left = kTries](const std::string& target, const std::string& source,
+                                        const ros::Time& time,
                                         std::string& error) mutable -> std::optional<Eigen::Isometry3d> {
     for (; tries_left > 0 && !buffer.canTransform(target, source, ros::Time(0)); --tries_left) {
       ros::WallDuration(0.01).sleep();  // the ROS clock may stand still
     }
     try {
-      return ros_io::toIsometry(buffer.lookupTransform(target, source, ros::Time(0)).transform);
+      const bool has_time = buffer.canTransform(target, source, time);
+      return ros_io::toIsometry(
+          buffer.lookupTransform(target, source, has_time ? time : ros::Time(0)).transform);
     } catch (const tf2::TransformException& exception) {
       error = exception.what();
       return std::nullopt;

@@ -8,8 +8,6 @@
 #include "kinematics/drive_params.h"
 #include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
-#include "nodes/laser_bridge/laser_bridge_params.h"
-#include "nodes/range_bridge/range_bridge_params.h"
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "nodes/simulator/simulator_node.h"
@@ -19,6 +17,8 @@
 #include "odometry/laser/laser_params.h"
 #include "ros/base_bridge_params.h"
 #include "ros/capture_setup.h"
+#include "ros/laser_bridge_params.h"
+#include "ros/range_bridge_params.h"
 #include "ros/stereo_processing.h"
 #include "stereo_nav/odometry/method/odometry_config.h"
 #include "tools/common/program.h"
@@ -66,7 +66,7 @@ void printSensors() {
       "`range_finders` (as `range_bridge`), `disparity` (as "
       "`stereo_image_proc/disparity`), `wheel_odometry` (as `wheel_odometry`, without its own), `uncertainty` (as "
       "`visual_odometry`), `base` (as `base_bridge`), all below, and `mounting`: where the sensors sit in "
-      "`base_link`.");
+      "`base_link`. Servos and range finders, which are in lists, have their `mounting` there.");
   printTable(Mounting());
   printHeading(
       "### Section `drive`",
@@ -82,12 +82,12 @@ void printSensors() {
   printHeading("## `imu_bridge`");
   printTable(ros_io::ImuBridgeParams());
   printHeading("## `laser_bridge`", "`config/laser.yaml`, and section `laser` of the rig file.");
-  printTable(nodes::LaserBridgeParams());
+  printTable(ros_io::LaserBridgeParams());
   printHeading(
       "## `range_bridge`",
       "`config/ranges.yaml`, and section `range_finders` of the rig file: `by_id_directory`, `finders`, how many there "
       "are, and for each of them a section `finder_1`, `finder_2`, ... as here.");
-  printTable(nodes::RangeFinderParams());
+  printTable(ros_io::RangeFinderParams());
   printHeading("## `stereo_image_proc/disparity`",
                "`config/disparity.yaml`, also read by `evaluate`. All of them can be changed live by the "
                "nodelet's own dynamic_reconfigure.");

@@ -60,12 +60,14 @@ class OdometrySessionTest : public testing::Test {
 
   std::map<std::string, Eigen::Isometry3d> transforms_{{ros_io::frames::kLeftOptical, baseToCamera()},
                                                        {ros_io::frames::kImu, Eigen::Isometry3d::Identity()}};
+  std::map<std::string, ros::Time> asked_at_;
   SensorSetup setup_;
   VisualOdometryParams params_;
   OdometrySession session_{params_, odometry::OdometryConfig(),
-                           [this](const std::string& target, const std::string& source,
+                           [this](const std::string& target, const std::string& source, const ros::Time& time,
                                   std::string& error) -> std::optional<Eigen::Isometry3d> {
                              EXPECT_EQ(target, ros_io::frames::kBase);
+                             asked_at_[source] = time;
                              const auto found = transforms_.find(source);
                              if (found != transforms_.end()) return found->second;
                              error = "not connected";
@@ -108,10 +110,27 @@ TEST_F(OdometrySessionTest, RefusesACameraThatMovesAgainstTheBaseUntilItIsBack) 
   EXPECT_FALSE(output.processed);
   EXPECT_TRUE(contains(output.errors["camera_moves"], "moved against base_link by 0.573 deg"))
       << output.errors["camera_moves"];
+  EXPECT_EQ(asked_at_[ros_io::frames::kLeftOptical], ros::Time(kStart_s + 0.1)) << "the image's stamp";
   T_base_camera = baseToCamera();
   output = process(frameAt(0.2));
   EXPECT_TRUE(output.processed);
   EXPECT_LT((output.base.T_odom_base.translation() - expectedPose(0.2).translation()).norm(), kTolerance_m);
+}
+
+/// The base drives on while the camera looks elsewhere: 0.2 m above its place and turned about the view.
+TEST_F(OdometrySessionTest, AfterAResetTheCameraIsTakenWhereItIs) {
+  ASSERT_TRUE(process(frameAt(0.0)).processed);
+  Eigen::Isometry3d& T_base_camera = transforms_[ros_io::frames::kLeftOptical];
+  T_base_camera.translation().z() += 0.2;
+  T_base_camera.rotate(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
+  EXPECT_FALSE(process(frameAt(0.1)).processed);
+  session_.reset();
+  ASSERT_TRUE(process(frameAt(0.2)).processed);
+  const SessionOutput output = process(frameAt(0.4));
+  ASSERT_TRUE(output.processed);
+  const Eigen::Isometry3d expected =
+      basePose(T_base_camera, test::roomDrive(0.2)).inverse() * basePose(T_base_camera, test::roomDrive(0.4));
+  EXPECT_LT((output.base.T_odom_base.translation() - expected.translation()).norm(), kTolerance_m);
 }
 
 TEST_F(OdometrySessionTest, WaitsForTheMountingAndNamesTheCommand) {

@@ -6,6 +6,7 @@
 #include "frame_parser.h"
 #include "small_crc32.h"
 #include "speed_loop.h"
+#include "steering_loop.h"
 
 namespace stereo_nav {
 namespace base {
@@ -14,7 +15,9 @@ namespace base {
 struct ControllerSetup {
   uint8_t wheels, joints, ranges, actuators;
   float metres_per_pulse[kMaxWheels];  ///< of the circumference; negative where the encoder counts backwards
+  bool is_steered[kMaxWheels];
   SpeedLoopGains gains;
+  SteeringLoopGains steering_gains;
 };
 
 /// What is measured before a period.
@@ -29,8 +32,8 @@ struct ControllerInputs {
 
 /// What the motors do in the coming period.
 struct ControllerOutputs {
-  float duty[kMaxWheels];  ///< -1 to 1
-  int32_t steering_urad[kMaxWheels];
+  float duty[kMaxWheels];           ///< -1 to 1
+  float steering_duty[kMaxWheels];  ///< of the steered axes, -1 to 1; 0 for wheels that are not steered
   int32_t joint_urad[kMaxJoints];
   int16_t actuator_permille[kMaxActuators];
 };
@@ -39,7 +42,10 @@ struct ControllerOutputs {
 class BaseController {
  public:
   explicit BaseController(const ControllerSetup& setup) : setup_(setup) {
-    for (uint8_t i = 0; i < kMaxWheels; ++i) loops_[i] = SpeedLoop(setup.gains);
+    for (uint8_t i = 0; i < kMaxWheels; ++i) {
+      loops_[i] = SpeedLoop(setup.gains);
+      steering_loops_[i] = SteeringLoop(setup.steering_gains);
+    }
   }
 
   /// A byte of the serial line.
@@ -63,7 +69,6 @@ class BaseController {
     const bool acts = watch_.linkIsUp() && watch_.mode() != Mode::kStopped;
     for (uint8_t i = 0; i < setup_.wheels; ++i) {
       target_mm_per_s_[i] = drives ? command_.speed_mm_per_s[i] : 0;
-      if (drives) outputs_.steering_urad[i] = command_.steering_urad[i];
       const int32_t turned = knows_pulses_ ? static_cast<int32_t>(static_cast<uint32_t>(inputs.pulses[i]) -
                                                                   static_cast<uint32_t>(pulses_[i]))
                                            : 0;
@@ -72,6 +77,7 @@ class BaseController {
       pulses_[i] = inputs.pulses[i];
     }
     knows_pulses_ = true;
+    steer(inputs, drives, period_s);
     // Joints hold their angles without a command; actuators, which are levels of motors, rest.
     for (uint8_t i = 0; i < setup_.joints && acts; ++i) outputs_.joint_urad[i] = command_.joint_urad[i];
     for (uint8_t i = 0; i < setup_.actuators; ++i)
@@ -108,10 +114,28 @@ class BaseController {
   int16_t heldSpeed_mm_per_s(uint8_t wheel) const { return target_mm_per_s_[wheel]; }
 
  private:
+  /// A steered axis that is not commanded is held where it was when the commands ended.
+  void steer(const ControllerInputs& inputs, bool drives, float period_s) {
+    for (uint8_t i = 0; i < setup_.wheels; ++i) {
+      if (drives) {
+        steering_target_urad_[i] = command_.steering_urad[i];
+      } else if (steered_ || !knows_steering_) {
+        steering_target_urad_[i] = inputs.steering_urad[i];
+      }
+      outputs_.steering_duty[i] =
+          setup_.is_steered[i]
+              ? steering_loops_[i].step(steering_target_urad_[i], inputs.steering_urad[i], period_s)
+              : 0.0F;
+    }
+    steered_ = drives;
+    knows_steering_ = true;
+  }
+
   ControllerSetup setup_;
   FrameParser<Command, SmallCrc32> parser_;
   CommandWatch watch_;
   SpeedLoop loops_[kMaxWheels];
+  SteeringLoop steering_loops_[kMaxWheels];
   Command received_ = Command();
   Command command_ = Command();
   ControllerOutputs outputs_ = ControllerOutputs();
@@ -119,6 +143,9 @@ class BaseController {
   int16_t target_mm_per_s_[kMaxWheels] = {};
   int32_t pulses_[kMaxWheels] = {};
   bool knows_pulses_ = false;
+  int32_t steering_target_urad_[kMaxWheels] = {};
+  bool knows_steering_ = false;
+  bool steered_ = false;  ///< the last period's angles were commanded
   uint16_t sequence_ = 0;
   uint16_t accepted_sequence_ = 0;
 };

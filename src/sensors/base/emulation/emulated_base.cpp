@@ -19,15 +19,32 @@ SpeedLoopGains gainsFor(const EmulatedWheelParams& wheel) {
   return gains;
 }
 
+SteeringLoopGains steeringGainsFor(const EmulatedWheelParams& wheel) {
+  SteeringLoopGains gains{};
+  gains.rate_per_error = 15.0F;
+  gains.max_rate_rad_per_s = static_cast<float>(0.8 * wheel.steering_rate_rad_per_s);
+  gains.tolerance_rad = 0.002F;
+  gains.rate.duty_per_speed = static_cast<float>(1.0 / wheel.steering_rate_rad_per_s);
+  gains.rate.friction_duty = static_cast<float>(wheel.friction_duty);
+  gains.rate.proportional = 0.1F;
+  gains.rate.integral = 2.0F;
+  gains.rate.back_calculation = 10.0F;
+  return gains;
+}
+
 ControllerSetup setupFor(const EmulatedBaseParams& params) {
   ControllerSetup setup{};
   setup.wheels = static_cast<std::uint8_t>(params.wheels.size());
   setup.joints = static_cast<std::uint8_t>(params.joints);
   setup.ranges = static_cast<std::uint8_t>(params.ranges_mm.size());
   setup.actuators = static_cast<std::uint8_t>(params.actuators);
-  for (std::size_t i = 0; i < params.wheels.size(); ++i)
+  for (std::size_t i = 0; i < params.wheels.size(); ++i) {
     setup.metres_per_pulse[i] = static_cast<float>(params.wheels[i].metres_per_pulse);
-  if (!params.wheels.empty()) setup.gains = gainsFor(params.wheels.front());
+    setup.is_steered[i] = params.wheels[i].steered;
+  }
+  if (params.wheels.empty()) return setup;
+  setup.gains = gainsFor(params.wheels.front());
+  setup.steering_gains = steeringGainsFor(params.wheels.front());
   return setup;
 }
 
@@ -62,7 +79,7 @@ void EmulatedBase::runPeriod(const Sink& sink) {
   sink(frame, time_s_);
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     for (double done_s = 0.0; done_s < params_.period_s - 0.5 * kStep_s; done_s += kStep_s)
-      wheels_[i].advance(outputs_.duty[i], 1e-6 * outputs_.steering_urad[i], kStep_s);
+      wheels_[i].advance(outputs_.duty[i], outputs_.steering_duty[i], kStep_s);
   }
 }
 

@@ -71,7 +71,23 @@ TEST_F(EmulatedBaseTest, SteersAtItsRate) {
   driveUntil(0.1, 0, 1500000);
   EXPECT_NEAR(last_.steering_urad[0], 0.8e6, 0.25e6);
   driveUntil(1.0, 0, 1500000);
-  EXPECT_NEAR(last_.steering_urad[0], 1.5e6, 10.0);
+  EXPECT_NEAR(last_.steering_urad[0], 1.5e6, 3e3);
+}
+
+/// Nothing turns before the first command, and a stop ends the turning of the axes, too.
+TEST_F(EmulatedBaseTest, AnAxisIsHeldWhereItIsWhileNothingIsCommanded) {
+  make(true);
+  advance(0.5);
+  EXPECT_EQ(last_.steering_urad[0], 0);
+  time_s_ = 0.5;
+  driveUntil(0.6, 0, 3000000);
+  advance(3.0);
+  EXPECT_EQ(base_->controller().mode(), Mode::kTimedOut);
+  const std::int32_t held = last_.steering_urad[0];
+  EXPECT_GT(held, 500000);
+  EXPECT_LT(held, 2900000 * 1.04) << "0.3 s after the last command it was still on its way or just there";
+  advance(5.0);
+  EXPECT_NEAR(last_.steering_urad[0], held, 1e3);
 }
 
 /// v x 0.3 s until the watchdog, then v^2 / (2 a), and what the lag adds.

@@ -5,9 +5,10 @@
 #include "sensors/laser/laser_device.h"
 #include "stereo_nav/core/parameter_visitor.h"
 
-namespace stereo_nav::nodes {
+namespace stereo_nav::ros_io {
 
-/// Parameters of the laser_bridge node. Those of the device are among them, without a section.
+/// Parameters of the laser_bridge node: section `laser` of the rig file. Those of the device are among them,
+/// without a section. Where the scanner sits is Mounting::laser.
 struct LaserBridgeParams {
   std::string port = "/dev/ttyUSB0";
   std::string by_id_directory = "/dev/serial/by-id";
@@ -17,4 +18,4 @@ struct LaserBridgeParams {
   void describe(ParameterVisitor& visitor);
 };
 
-}  // namespace stereo_nav::nodes
+}  // namespace stereo_nav::ros_io

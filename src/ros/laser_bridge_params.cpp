@@ -1,6 +1,6 @@
-#include "nodes/laser_bridge/laser_bridge_params.h"
+#include "ros/laser_bridge_params.h"
 
-namespace stereo_nav::nodes {
+namespace stereo_nav::ros_io {
 
 void LaserBridgeParams::describe(ParameterVisitor& visitor) {
   visitor.text("port", port, "serial port, better by its lasting name /dev/serial/by-id/...");
@@ -9,4 +9,4 @@ void LaserBridgeParams::describe(ParameterVisitor& visitor) {
   device.describe(visitor);
 }
 
-}  // namespace stereo_nav::nodes
+}  // namespace stereo_nav::ros_io
