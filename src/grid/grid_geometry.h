@@ -14,11 +14,12 @@ struct Cell {
   bool operator!=(const Cell& other) const { return !(*this == other); }
 };
 
-/// Where the cells of a grid lie in the frame of the map, as nav_msgs/MapMetaData has it: the lower left corner of cell
-/// (0, 0) is the origin, columns run along the x axis of the origin's pose, rows along its y axis.
+/// Where the cells of a grid lie in the frame of the map, as nav_msgs/MapMetaData has it: the lower left
+/// corner of cell (0, 0) is the origin, columns run along the x axis of the origin's pose, rows along its y
+/// axis.
 struct GridGeometry {
-  int width = 0;              ///< columns
-  int height = 0;             ///< rows
+  int width = 0;               ///< columns
+  int height = 0;              ///< rows
   double resolution_m = 0.05;  ///< side of a cell
   double origin_x_m = 0.0;
   double origin_y_m = 0.0;
@@ -27,7 +28,8 @@ struct GridGeometry {
   bool contains(Cell cell) const { return cell.x >= 0 && cell.y >= 0 && cell.x < width && cell.y < height; }
   /// Position of a cell in an array of rows; the cell must be inside.
   std::size_t index(Cell cell) const {
-    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(cell.x);
+    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(cell.x);
   }
   std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 

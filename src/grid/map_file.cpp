@@ -20,13 +20,15 @@ namespace fs = std::filesystem;
 template <class Value>
 Value entry(const YAML::Node& map, const std::string& file, const std::string& name) {
   const YAML::Node node = map[name];
-  if (!node.IsDefined()) throw InputError(file + ": `" + name + "` is missing; is this the YAML file of a map?");
+  if (!node.IsDefined())
+    throw InputError(file + ": `" + name + "` is missing; is this the YAML file of a map?");
   try {
     return node.as<Value>();
   } catch (const YAML::Exception&) {
-    throw InputError(fmt::format("{}:{}: `{}` cannot be used; map_server's format has e.g. `resolution: 0.05`, `origin: [-10.0, -5.0, "
-                                 "0.0]`, `negate: 0`",
-                                 file, node.Mark().line + 1, name));
+    throw InputError(fmt::format(
+        "{}:{}: `{}` cannot be used; map_server's format has e.g. `resolution: 0.05`, `origin: [-10.0, -5.0, "
+        "0.0]`, `negate: 0`",
+        file, node.Mark().line + 1, name));
   }
 }
 
@@ -52,8 +54,9 @@ MapImageParams imageParams(const YAML::Node& map, const std::string& file) {
   params.occupied_thresh = entry<double>(map, file, "occupied_thresh");
   params.free_thresh = entry<double>(map, file, "free_thresh");
   if (!(params.free_thresh < params.occupied_thresh)) {
-    throw InputError(fmt::format("{}: `free_thresh` is {} and `occupied_thresh` {}; the first must be smaller", file, params.free_thresh,
-                                 params.occupied_thresh));
+    throw InputError(
+        fmt::format("{}: `free_thresh` is {} and `occupied_thresh` {}; the first must be smaller", file,
+                    params.free_thresh, params.occupied_thresh));
   }
   return params;
 }
@@ -61,7 +64,8 @@ MapImageParams imageParams(const YAML::Node& map, const std::string& file) {
 GridGeometry geometryOf(const YAML::Node& map, const std::string& file) {
   GridGeometry geometry;
   geometry.resolution_m = entry<double>(map, file, "resolution");
-  if (!(geometry.resolution_m > 0.0)) throw InputError(file + ": `resolution` must be above zero, in m a pixel");
+  if (!(geometry.resolution_m > 0.0))
+    throw InputError(file + ": `resolution` must be above zero, in m a pixel");
   const auto origin = entry<std::vector<double>>(map, file, "origin");
   if (origin.size() != 3 || !std::isfinite(origin[0] + origin[1] + origin[2]))
     throw InputError(file + ": `origin` must be three numbers, x and y in m and the yaw in rad");
@@ -76,17 +80,20 @@ GridGeometry geometryOf(const YAML::Node& map, const std::string& file) {
 cv::Mat readMapImage(const std::string& path) {
   cv::Mat image = cv::imread(path, cv::IMREAD_UNCHANGED);
   if (image.empty()) {
-    throw InputError(path + (fs::exists(path) ? ": no image that can be read; PGM and PNG can" : ": there is no such image file"));
+    throw InputError(path + (fs::exists(path) ? ": no image that can be read; PGM and PNG can"
+                                              : ": there is no such image file"));
   }
   if (image.cols > 65535 || image.rows > 65535) {
-    throw InputError(fmt::format("{}: {} x {} pixels; a side of a map has 65535 cells at most", path, image.cols, image.rows));
+    throw InputError(fmt::format("{}: {} x {} pixels; a side of a map has 65535 cells at most", path,
+                                 image.cols, image.rows));
   }
   return image;
 }
 
 OccupancyGrid loadMap(const std::string& yaml_path) {
   const YAML::Node map = loadYamlFile(yaml_path);
-  if (!map.IsMap()) throw InputError(yaml_path + ": not the YAML file of a map, which begins with `image: FILE`");
+  if (!map.IsMap())
+    throw InputError(yaml_path + ": not the YAML file of a map, which begins with `image: FILE`");
   const MapImageParams params = imageParams(map, yaml_path);
   OccupancyGrid grid;
   grid.geometry = geometryOf(map, yaml_path);
@@ -98,17 +105,20 @@ OccupancyGrid loadMap(const std::string& yaml_path) {
   return grid;
 }
 
-void saveMap(const OccupancyGrid& grid, const std::string& yaml_path, MapMode mode, const std::string& image_extension) {
+void saveMap(const OccupancyGrid& grid, const std::string& yaml_path, MapMode mode,
+             const std::string& image_extension) {
   const cv::Mat_<std::uint8_t> image = imageOfCells(grid, mode);
   const fs::path image_path = fs::path(yaml_path).replace_extension(image_extension);
   std::vector<std::uint8_t> bytes;
-  if ((image_extension != ".pgm" && image_extension != ".png") || !cv::imencode(image_extension, image, bytes))
+  if ((image_extension != ".pgm" && image_extension != ".png") ||
+      !cv::imencode(image_extension, image, bytes))
     throw InputError("a map's image is a .pgm or a .png file, not '" + image_extension + "'");
   writeFileAtomically(image_path.string(), std::string(bytes.begin(), bytes.end()));
   const GridGeometry& geometry = grid.geometry;
-  std::string text = fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
-                                 image_path.filename().string(), geometry.resolution_m, geometry.origin_x_m,
-                                 geometry.origin_y_m, geometry.origin_yaw_rad);
+  std::string text = fmt::format(
+      "image: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
+      image_path.filename().string(), geometry.resolution_m, geometry.origin_x_m, geometry.origin_y_m,
+      geometry.origin_yaw_rad);
   if (mode == MapMode::kRaw) text += "mode: raw\n";
   writeFileAtomically(yaml_path, text);
 }

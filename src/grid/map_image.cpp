@@ -65,7 +65,8 @@ std::vector<std::int8_t> cellsOfImage(const cv::Mat& image, const MapImageParams
 }
 
 cv::Mat_<std::uint8_t> imageOfCells(const OccupancyGrid& grid, MapMode mode) {
-  if (mode == MapMode::kScale) throw InputError("maps are written as trinary or raw; scale is for reading only");
+  if (mode == MapMode::kScale)
+    throw InputError("maps are written as trinary or raw; scale is for reading only");
   cv::Mat_<std::uint8_t> image(grid.geometry.height, grid.geometry.width);
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
@@ -91,15 +92,17 @@ OccupancyGrid gridOfDrawing(const cv::Mat& image, const DrawingParams& params) {
   geometry.width = static_cast<int>(std::ceil(pixels.cols * cells_per_pixel - 1e-6));
   geometry.height = static_cast<int>(std::ceil(pixels.rows * cells_per_pixel - 1e-6));
   if (geometry.width > 20000 || geometry.height > 20000) {
-    throw InputError(fmt::format("the drawing of {} x {} pixels would have {} x {} cells; is --metres-per-pixel right?", pixels.cols,
-                                 pixels.rows, geometry.width, geometry.height));
+    throw InputError(
+        fmt::format("the drawing of {} x {} pixels would have {} x {} cells; is --metres-per-pixel right?",
+                    pixels.cols, pixels.rows, geometry.width, geometry.height));
   }
   OccupancyGrid grid(geometry, kFree);
   const int channels = pixels.channels();
   for (int row = 0; row < pixels.rows; ++row) {
     const int from_bottom = pixels.rows - 1 - row;
     const int y0 = static_cast<int>(from_bottom * cells_per_pixel + 1e-6);
-    const int y1 = std::min(geometry.height - 1, static_cast<int>((from_bottom + 1) * cells_per_pixel - 1e-6));
+    const int y1 =
+        std::min(geometry.height - 1, static_cast<int>((from_bottom + 1) * cells_per_pixel - 1e-6));
     const std::uint8_t* pixel = pixels.ptr<std::uint8_t>(row);
     for (int column = 0; column < pixels.cols; ++column, pixel += channels) {
       if (!isBlack(pixel, channels, params.black_below)) continue;

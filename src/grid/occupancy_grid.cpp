@@ -8,7 +8,8 @@ cv::Mat_<std::uint8_t> obstacleMask(const OccupancyGrid& grid, UnknownSpace unkn
   return mask;
 }
 
-void updateObstacleMask(const OccupancyGrid& grid, UnknownSpace unknown, const cv::Rect& part, cv::Mat_<std::uint8_t>& mask) {
+void updateObstacleMask(const OccupancyGrid& grid, UnknownSpace unknown, const cv::Rect& part,
+                        cv::Mat_<std::uint8_t>& mask) {
   const std::uint8_t of_unknown = unknown == UnknownSpace::kObstacle ? 1 : 0;
   for (int y = part.y; y < part.br().y; ++y) {
     for (int x = part.x; x < part.br().x; ++x) {

@@ -12,7 +12,8 @@ constexpr std::int8_t kFree = 0;
 constexpr std::int8_t kOccupied = 100;
 constexpr std::int8_t kUnknown = -1;
 
-/// The content of nav_msgs/OccupancyGrid: 0 (free) to 100 (occupied), or -1 where nothing is known, row by row from the origin.
+/// The content of nav_msgs/OccupancyGrid: 0 (free) to 100 (occupied), or -1 where nothing is known, row by
+/// row from the origin.
 struct OccupancyGrid {
   GridGeometry geometry;
   std::vector<std::int8_t> cells;
@@ -24,7 +25,8 @@ struct OccupancyGrid {
   std::int8_t& at(Cell cell) { return cells[geometry.index(cell)]; }
 };
 
-/// What a cell of which nothing is known, and all that lies beyond the edge of the grid, counts as. One rule for the whole robot.
+/// What a cell of which nothing is known, and all that lies beyond the edge of the grid, counts as. One rule
+/// for the whole robot.
 enum class UnknownSpace { kFree, kObstacle };
 
 /// From this value on a cell is an obstacle, as in map_server and move_base.
@@ -33,6 +35,7 @@ constexpr std::int8_t kObstacleFrom = 65;
 /// The cells that the robot must not touch: CV_8UC1, 1 for an obstacle and 0 for free, row 0 at the origin.
 cv::Mat_<std::uint8_t> obstacleMask(const OccupancyGrid& grid, UnknownSpace unknown);
 /// The same within `part` only, written into that part of `mask`.
-void updateObstacleMask(const OccupancyGrid& grid, UnknownSpace unknown, const cv::Rect& part, cv::Mat_<std::uint8_t>& mask);
+void updateObstacleMask(const OccupancyGrid& grid, UnknownSpace unknown, const cv::Rect& part,
+                        cv::Mat_<std::uint8_t>& mask);
 
 }  // namespace stereo_nav::grid

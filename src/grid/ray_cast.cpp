@@ -4,7 +4,8 @@ namespace stereo_nav::grid {
 
 RayHit castRay(const OccupancyGrid& grid, const Eigen::Vector2d& p_map, double direction_rad, double range_m,
                std::int8_t occupied_from) {
-  const Eigen::Vector2d end = p_map + range_m * Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad));
+  const Eigen::Vector2d end =
+      p_map + range_m * Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad));
   RayHit result;
   result.distance_m = range_m;
   bool was_inside = false;

@@ -7,9 +7,10 @@
 
 namespace stereo_nav::grid {
 
-/// Visits the cells that the line from `from` to `to` runs through, in their order, neighbours by their sides (Amanatides and Woo
-/// 1987). Both in cells (GridGeometry::inCells()); they may lie outside the grid. `visit(Cell, double share)` gets the
-/// share of the line, 0 to 1, at which it enters the cell, and returns false to stop. Returns false if it was stopped.
+/// Visits the cells that the line from `from` to `to` runs through, in their order, neighbours by their sides
+/// (Amanatides and Woo 1987). Both in cells (GridGeometry::inCells()); they may lie outside the grid.
+/// `visit(Cell, double share)` gets the share of the line, 0 to 1, at which it enters the cell, and returns
+/// false to stop. Returns false if it was stopped.
 template <class Visit>
 bool traverse(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& visit) {
   const Eigen::Vector2d way = to - from;
@@ -19,8 +20,10 @@ bool traverse(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visi
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double per_x = way.x() == 0.0 ? kNever : 1.0 / std::fabs(way.x());
   const double per_y = way.y() == 0.0 ? kNever : 1.0 / std::fabs(way.y());
-  double next_x = per_x == kNever ? kNever : ((step_x > 0 ? cell.x + 1 - from.x() : from.x() - cell.x) * per_x);
-  double next_y = per_y == kNever ? kNever : ((step_y > 0 ? cell.y + 1 - from.y() : from.y() - cell.y) * per_y);
+  double next_x =
+      per_x == kNever ? kNever : ((step_x > 0 ? cell.x + 1 - from.x() : from.x() - cell.x) * per_x);
+  double next_y =
+      per_y == kNever ? kNever : ((step_y > 0 ? cell.y + 1 - from.y() : from.y() - cell.y) * per_y);
   double share = 0.0;
   for (int left = std::abs(last.x - cell.x) + std::abs(last.y - cell.y); visit(cell, share); --left) {
     if (left == 0) return true;
@@ -45,7 +48,8 @@ struct RayHit {
   Cell cell;                ///< the one that it meets
 };
 
-/// Follows a ray through the map from a point of it until a cell of at least `occupied_from`; unknown cells let it pass.
+/// Follows a ray through the map from a point of it until a cell of at least `occupied_from`; unknown cells
+/// let it pass.
 RayHit castRay(const OccupancyGrid& grid, const Eigen::Vector2d& p_map, double direction_rad, double range_m,
                std::int8_t occupied_from = kObstacleFrom);
 

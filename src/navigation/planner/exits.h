@@ -12,9 +12,10 @@ constexpr std::uint8_t kNoMove = kMoves;
 
 namespace internal {
 
-/// Of the legal `moves` of a cell that was entered by `arrival`, those that a shortest path may need, where all moves are those of
-/// movesOfPoint() and length alone counts. All others lead where a way around this cell is as short (Harabor and Grastien
-/// 2011, section "Pruning", with their rule for grids on which no corner is cut).
+/// Of the legal `moves` of a cell that was entered by `arrival`, those that a shortest path may need, where
+/// all moves are those of movesOfPoint() and length alone counts. All others lead where a way around this
+/// cell is as short (Harabor and Grastien 2011, section "Pruning", with their rule for grids on which no
+/// corner is cut).
 constexpr std::uint8_t prunedExits(unsigned arrival, unsigned moves) {
   const auto bit = [&](unsigned turned) { return 1U << ((arrival + turned) % kMoves); };
   if (arrival == kNoMove) return static_cast<std::uint8_t>(moves);
@@ -25,8 +26,8 @@ constexpr std::uint8_t prunedExits(unsigned arrival, unsigned moves) {
   return static_cast<std::uint8_t>(moves & needed);
 }
 
-/// The moves that can be turned to from the direction of `arrival`, one way round or the other, where bit k of `turns` allows to turn
-/// between moves k and k + 1.
+/// The moves that can be turned to from the direction of `arrival`, one way round or the other, where bit k
+/// of `turns` allows to turn between moves k and k + 1.
 constexpr std::uint8_t turningExits(unsigned arrival, unsigned turns) {
   if (arrival == kNoMove) return 0xFF;
   unsigned exits = 1U << arrival;

@@ -41,7 +41,8 @@ GridPath GridSearch::find(const MoveGrid& grid, grid::Cell start, grid::Cell goa
       return search(grid, start, goal, start_moves, prune,
                     [=](int dx, int dy) { return scaled(unit * std::hypot(dx, dy)); });
     case Heuristic::kManhattan:
-      return search(grid, start, goal, start_moves, prune, [=](int dx, int dy) { return scaled(unit * (dx + dy)); });
+      return search(grid, start, goal, start_moves, prune,
+                    [=](int dx, int dy) { return scaled(unit * (dx + dy)); });
     case Heuristic::kOctile:
       break;
   }

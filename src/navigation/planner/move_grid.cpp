@@ -16,7 +16,8 @@ MoveGrid movesOfPoint(const cv::Mat& obstacles) {
       unsigned moves = 0;
       for (int k = 0; k < kMoves; ++k) {
         const grid::Cell step = kMoveSteps[static_cast<std::size_t>(k)];
-        if (is_free(x + step.x, y + step.y) && is_free(x + step.x, y) && is_free(x, y + step.y)) moves |= 1U << k;
+        if (is_free(x + step.x, y + step.y) && is_free(x + step.x, y) && is_free(x, y + step.y))
+          moves |= 1U << k;
       }
       grid.moves[grid.index({x, y})] = static_cast<std::uint8_t>(moves);
     }
