@@ -82,10 +82,12 @@ Polygon Footprint::sweptBy(const Eigen::Vector2d& from, const Eigen::Vector2d& t
 Polygon Footprint::turning(const Eigen::Vector2d& position, double from_rad, double to_rad) const {
   const double turn_rad = wrapRadians(to_rad - from_rad);
   const int steps = std::max(1, static_cast<int>(std::ceil(std::fabs(turn_rad) / kTurnStep_rad)));
+  const double half_step_rad = turn_rad / steps / 2.0;
   Polygon corners;
   for (int i = 0; i <= steps; ++i) {
-    const Polygon placed = at(position, from_rad + turn_rad * i / steps);
-    corners.insert(corners.end(), placed.begin(), placed.end());
+    // A little larger, so that the chords between the steps hold the arcs.
+    for (const auto& corner : at(Eigen::Vector2d::Zero(), from_rad + turn_rad * i / steps))
+      corners.emplace_back(position + corner / std::cos(half_step_rad));
   }
   return convexHull(corners);
 }

@@ -10,7 +10,7 @@ cv::Mat_<std::uint8_t> obstacleMask(const OccupancyGrid& grid, UnknownSpace unkn
 
 void updateObstacleMask(const OccupancyGrid& grid, UnknownSpace unknown, const cv::Rect& part,
                         cv::Mat_<std::uint8_t>& mask) {
-  const std::uint8_t of_unknown = unknown == UnknownSpace::kObstacle ? 1 : 0;
+  const std::uint8_t of_unknown = unknown == UnknownSpace::kAsObstacle ? 1 : 0;
   for (int y = part.y; y < part.br().y; ++y) {
     for (int x = part.x; x < part.br().x; ++x) {
       const std::int8_t value = grid.at({x, y});

@@ -27,7 +27,7 @@ struct OccupancyGrid {
 
 /// What a cell of which nothing is known, and all that lies beyond the edge of the grid, counts as. One rule
 /// for the whole robot.
-enum class UnknownSpace { kFree, kObstacle };
+enum class UnknownSpace { kAsFree, kAsObstacle };
 
 /// From this value on a cell is an obstacle, as in map_server and move_base.
 constexpr std::int8_t kObstacleFrom = 65;

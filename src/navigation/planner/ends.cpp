@@ -1,5 +1,6 @@
 #include "navigation/planner/ends.h"
 
+#include <cmath>
 #include <limits>
 
 namespace stereo_nav::navigation {
@@ -17,10 +18,15 @@ std::vector<grid::Cell> wayOutOfObstacles(const RobotSpace& space, grid::Cell st
   while (!space.fitsSomehow(way.back()) || moves.moves[moves.index(way.back())] == 0) {
     if (static_cast<int>(way.size()) > most) return {};
     grid::Cell best = way.back();
+    double steepest = 0.0;
     for (const grid::Cell step : kMoveSteps) {
       const grid::Cell next{way.back().x + step.x, way.back().y + step.y};
-      if (space.geometry().contains(next) && space.obstacleDistance(next) > space.obstacleDistance(best))
-        best = next;
+      if (!space.geometry().contains(next)) continue;
+      const double rise = double{space.obstacleDistance(next)} - double{space.obstacleDistance(way.back())};
+      const double gradient = rise / std::hypot(step.x, step.y);
+      if (gradient <= steepest) continue;
+      steepest = gradient;
+      best = next;
     }
     if (best == way.back()) return {};
     way.push_back(best);
@@ -29,7 +35,7 @@ std::vector<grid::Cell> wayOutOfObstacles(const RobotSpace& space, grid::Cell st
 }
 
 cv::Mat_<std::uint8_t> reachableFrom(const MoveGrid& grid, grid::Cell start) {
-  cv::Mat_<std::uint8_t> reachable = cv::Mat_<std::uint8_t>::zeros(grid.height, grid.width);
+  cv::Mat_<std::uint8_t> reachable(grid.height, grid.width, std::uint8_t{0});
   std::vector<grid::Cell> open{start};
   reachable(start.y, start.x) = 1;
   while (!open.empty()) {

@@ -57,10 +57,12 @@ Plan PathPlanner::plan(const PlanarPose& start, const Eigen::Vector2d& goal_m,
   if (path.size() > 1 && space_.fitsAlong(path[path.size() - 2], ends->goal)) path.back() = ends->goal;
   path = shortened(space_, path, params_.shortcut_slack);
   if (leaves) {
-    CellPath out{exact};
-    for (std::size_t i = 1; i + 1 < ends->way_out.size(); ++i) out.push_back(centre(ends->way_out[i]));
+    CellPath out;
+    for (const grid::Cell cell : ends->way_out) out.push_back(centre(cell));
+    out = bendsOf(out);
+    out.front() = exact;
+    out.pop_back();
     path.insert(path.begin(), out.begin(), out.end());
-    path = bendsOf(path);
     plan.left_m = (centre(first) - exact).norm() * space_.geometry().resolution_m;
     plan.text += fmt::format(
         "the robot touches an obstacle at the start; the path first leads {:.2f} m away from it. ",

@@ -18,7 +18,7 @@ void PlannerParams::describe(ParameterVisitor& visitor) {
       visitor, "heading", heading, {{"travel", HeadingRule::kTravel}, {"kept", HeadingRule::kKept}},
       "travel: the robot faces where it drives to; kept: it keeps its heading, as swerve, mecanum and omni drives can");
   visitEnum(visitor, "unknown", unknown,
-            {{"obstacle", grid::UnknownSpace::kObstacle}, {"free", grid::UnknownSpace::kFree}},
+            {{"obstacle", grid::UnknownSpace::kAsObstacle}, {"free", grid::UnknownSpace::kAsFree}},
             "what cells of which nothing is known count as, and all beyond the edge of the map");
   visitSection(visitor, "clearance", clearance);
   visitSection(visitor, "search", search);

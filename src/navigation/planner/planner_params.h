@@ -14,7 +14,7 @@ struct PlannerParams {
   /// Corners "x y, x y, ..." in base_link, m; they replace length and width.
   std::string footprint;
   HeadingRule heading = HeadingRule::kTravel;
-  grid::UnknownSpace unknown = grid::UnknownSpace::kObstacle;
+  grid::UnknownSpace unknown = grid::UnknownSpace::kAsObstacle;
   grid::ClearanceParams clearance;
   SearchParams search;
   double goal_tolerance_m = 0.25;

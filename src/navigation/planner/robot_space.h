@@ -78,7 +78,7 @@ class RobotSpace {
   void makeLayers();
   void updateMoves(const cv::Rect& part);
   const Layer& layerAlong(const Eigen::Vector2d& way) const;
-  bool outside() const { return unknown_ == grid::UnknownSpace::kObstacle; }
+  bool outside() const { return unknown_ == grid::UnknownSpace::kAsObstacle; }
 
   grid::Footprint footprint_m_;
   HeadingRule rule_;
