@@ -14,6 +14,14 @@ struct Cell {
   bool operator!=(const Cell& other) const { return !(*this == other); }
 };
 
+/// The cell that holds a place given in cells, and the place of a cell's centre.
+inline Cell cellHolding(const Eigen::Vector2d& p_cells) {
+  return {static_cast<int>(std::floor(p_cells.x())), static_cast<int>(std::floor(p_cells.y()))};
+}
+inline Eigen::Vector2d centreInCells(Cell cell) {
+  return Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5);
+}
+
 /// Where the cells of a grid lie in the frame of the map, as nav_msgs/MapMetaData has it: the lower left
 /// corner of cell (0, 0) is the origin, columns run along the x axis of the origin's pose, rows along its y
 /// axis.
@@ -41,10 +49,7 @@ struct GridGeometry {
     return T;
   }
   /// The cell that holds a point of the map; it may lie outside the grid.
-  Cell cellAt(const Eigen::Vector2d& p_map) const {
-    const Eigen::Vector2d p_cells = inCells(p_map);
-    return {static_cast<int>(std::floor(p_cells.x())), static_cast<int>(std::floor(p_cells.y()))};
-  }
+  Cell cellAt(const Eigen::Vector2d& p_map) const { return cellHolding(inCells(p_map)); }
   /// A point of the map in units of cells: the centre of cell (0, 0) is (0.5, 0.5).
   Eigen::Vector2d inCells(const Eigen::Vector2d& p_map) const {
     return T_map_grid().inverse() * p_map / resolution_m;
@@ -53,7 +58,7 @@ struct GridGeometry {
     return T_map_grid() * Eigen::Vector2d(p_cells * resolution_m);
   }
   /// The centre of a cell in the frame of the map.
-  Eigen::Vector2d centreOf(Cell cell) const { return fromCells(Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5)); }
+  Eigen::Vector2d centreOf(Cell cell) const { return fromCells(centreInCells(cell)); }
 };
 
 }  // namespace stereo_nav::grid

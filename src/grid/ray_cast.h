@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "grid/occupancy_grid.h"
@@ -14,8 +16,8 @@ namespace stereo_nav::grid {
 template <class Visit>
 bool traverse(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& visit) {
   const Eigen::Vector2d way = to - from;
-  Cell cell{static_cast<int>(std::floor(from.x())), static_cast<int>(std::floor(from.y()))};
-  const Cell last{static_cast<int>(std::floor(to.x())), static_cast<int>(std::floor(to.y()))};
+  Cell cell = cellHolding(from);
+  const Cell last = cellHolding(to);
   const int step_x = way.x() < 0.0 ? -1 : 1, step_y = way.y() < 0.0 ? -1 : 1;
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double per_x = way.x() == 0.0 ? kNever : 1.0 / std::fabs(way.x());

@@ -4,14 +4,6 @@
 #include <limits>
 
 namespace stereo_nav::navigation {
-namespace {
-
-Eigen::Vector2d centre(grid::Cell cell) {
-  return Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5);
-}
-
-}  // namespace
-
 std::vector<grid::Cell> wayOutOfObstacles(const RobotSpace& space, grid::Cell start, int most) {
   std::vector<grid::Cell> way{start};
   const MoveGrid& moves = space.moves();
@@ -58,7 +50,7 @@ grid::Cell nearestCell(const cv::Mat_<std::uint8_t>& reachable, const Eigen::Vec
   for (int y = 0; y < reachable.rows; ++y) {
     for (int x = 0; x < reachable.cols; ++x) {
       if (reachable(y, x) == 0) continue;
-      const double distance = (centre({x, y}) - place).squaredNorm();
+      const double distance = (grid::centreInCells({x, y}) - place).squaredNorm();
       if (distance < least) {
         least = distance;
         nearest = {x, y};
@@ -73,7 +65,7 @@ std::uint8_t firstMoves(const RobotSpace& space, grid::Cell cell, double heading
   unsigned moves = 0;
   for (unsigned k = 0; k < kMoves; ++k) {
     const Eigen::Vector2d step(kMoveSteps[k].x, kMoveSteps[k].y);
-    if (space.fitsTurning(centre(cell), heading_rad, space.headingAlong(step))) moves |= 1U << k;
+    if (space.fitsTurning(grid::centreInCells(cell), heading_rad, space.headingAlong(step))) moves |= 1U << k;
   }
   return static_cast<std::uint8_t>(moves);
 }

@@ -13,14 +13,6 @@
 namespace stereo_nav::navigation {
 namespace {
 
-Eigen::Vector2d centre(grid::Cell cell) {
-  return Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5);
-}
-
-grid::Cell cellOf(const Eigen::Vector2d& place) {
-  return {static_cast<int>(std::floor(place.x())), static_cast<int>(std::floor(place.y()))};
-}
-
 std::string point(const Eigen::Vector2d& p_m) {
   return fmt::format("({:.3f}, {:.3f})", p_m.x(), p_m.y());
 }
@@ -41,7 +33,8 @@ Plan PathPlanner::plan(const PlanarPose& start, const Eigen::Vector2d& goal_m,
   if (!ends) return plan;
   const grid::Cell first = ends->way_out.back();
   const std::uint8_t first_moves = firstMoves(space_, first, gridHeading(start.heading_rad));
-  const GridPath found = search_.find(space_.moves(), first, cellOf(ends->goal), params_.search, first_moves);
+  const GridPath found =
+      search_.find(space_.moves(), first, grid::cellHolding(ends->goal), params_.search, first_moves);
   if (!found.found()) {
     explainNoWay(first, ends->goal, plan);
     return plan;
@@ -51,19 +44,19 @@ Plan PathPlanner::plan(const PlanarPose& start, const Eigen::Vector2d& goal_m,
   // for a shortcut.
   const bool leaves = ends->way_out.size() > 1;
   CellPath path;
-  for (const grid::Cell cell : found.cells) path.push_back(centre(cell));
+  for (const grid::Cell cell : found.cells) path.push_back(grid::centreInCells(cell));
   const Eigen::Vector2d exact = space_.geometry().inCells(start.position_m);
   if (!leaves && (path.size() == 1 || space_.fitsAlong(exact, path[1]))) path.front() = exact;
   if (path.size() > 1 && space_.fitsAlong(path[path.size() - 2], ends->goal)) path.back() = ends->goal;
   path = shortened(space_, path, params_.shortcut_slack);
   if (leaves) {
     CellPath out;
-    for (const grid::Cell cell : ends->way_out) out.push_back(centre(cell));
+    for (const grid::Cell cell : ends->way_out) out.push_back(grid::centreInCells(cell));
     out = bendsOf(out);
     out.front() = exact;
     out.pop_back();
     path.insert(path.begin(), out.begin(), out.end());
-    plan.left_m = (centre(first) - exact).norm() * space_.geometry().resolution_m;
+    plan.left_m = (grid::centreInCells(first) - exact).norm() * space_.geometry().resolution_m;
     plan.text += fmt::format(
         "the robot touches an obstacle at the start; the path first leads {:.2f} m away from it. ",
         plan.left_m);
@@ -102,7 +95,7 @@ std::optional<PathPlanner::Ends> PathPlanner::findEnds(const PlanarPose& start, 
   ends.goal = geometry.inCells(goal_m);
   if (space_.fitsSomehow(goal_cell)) return ends;
   const grid::Cell nearest = nearestCell(reachableFrom(space_.moves(), ends.way_out.back()), ends.goal);
-  const double distance_m = (centre(nearest) - ends.goal).norm() * geometry.resolution_m;
+  const double distance_m = (grid::centreInCells(nearest) - ends.goal).norm() * geometry.resolution_m;
   const std::string where = fmt::format(
       "the robot does not fit at the goal {}; the nearest point that it can reach is {}, {:.2f} m away",
       point(goal_m), point(geometry.centreOf(nearest)), distance_m);
@@ -111,7 +104,7 @@ std::optional<PathPlanner::Ends> PathPlanner::findEnds(const PlanarPose& start, 
            fmt::format("{}, more than the tolerance of {} m", where, params_.goal_tolerance_m));
     return std::nullopt;
   }
-  ends.goal = centre(nearest);
+  ends.goal = grid::centreInCells(nearest);
   ends.goal_moved = true;
   plan.status = PlanStatus::kGoalMoved;
   plan.text = where + ": the path ends there. ";
@@ -126,10 +119,10 @@ Plan& PathPlanner::refuse(Plan& plan, PlanStatus status, const std::string& text
 
 void PathPlanner::explainNoWay(grid::Cell start, const Eigen::Vector2d& goal, Plan& plan) const {
   const grid::Cell nearest = nearestCell(reachableFrom(space_.moves(), start), goal);
-  const double distance_m = (centre(nearest) - goal).norm() * space_.geometry().resolution_m;
+  const double distance_m = (grid::centreInCells(nearest) - goal).norm() * space_.geometry().resolution_m;
   const std::string places = fmt::format("from {} to {}", point(space_.geometry().centreOf(start)),
                                          point(space_.geometry().fromCells(goal)));
-  if (nearest == cellOf(goal)) {
+  if (nearest == grid::cellHolding(goal)) {
     refuse(
         plan, PlanStatus::kNoWay,
         fmt::format(

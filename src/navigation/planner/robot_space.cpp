@@ -156,7 +156,7 @@ double RobotSpace::costAlong(const Eigen::Vector2d& from, const Eigen::Vector2d&
   double sum = 0.0;
   for (int i = 0; i < samples; ++i) {
     const Eigen::Vector2d at = from + way * ((i + 0.5) / samples);
-    const grid::Cell cell{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))};
+    const grid::Cell cell = grid::cellHolding(at);
     if (geometry_.contains(cell)) sum += layer.costs(cell.y, cell.x);
   }
   return length * (1.0 + sum / samples / MoveGrid::kCostUnits);
@@ -170,7 +170,7 @@ double RobotSpace::clearance(const Eigen::Vector2d& position, double heading_rad
     const int samples = static_cast<int>(std::ceil(2.0 * side.norm()));
     for (int s = 0; s < samples; ++s) {
       const Eigen::Vector2d at = outline[i] + side * (static_cast<double>(s) / samples);
-      const grid::Cell cell{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))};
+      const grid::Cell cell = grid::cellHolding(at);
       if (geometry_.contains(cell)) least = std::min<double>(least, obstacleDistance(cell) - 0.5);
     }
   }

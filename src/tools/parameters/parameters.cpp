@@ -6,6 +6,9 @@
 
 #include "core/rig_file.h"
 #include "kinematics/drive_params.h"
+#ifdef STEREO_NAV_NAVIGATION
+#include "navigation/planner/planner_params.h"
+#endif
 #include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
 #include "nodes/laser_bridge/laser_bridge_params.h"
@@ -131,6 +134,10 @@ void printOthers() {
   printHeading("## Laser odometry",
                "`config/laser_odometry.yaml` and files like it, read by `evaluate --method laser`.");
   printTable(odometry::LaserParams());
+#ifdef STEREO_NAV_NAVIGATION
+  printHeading("## Path planning", "`config/planner.yaml` and files like it, read by `plan`.");
+  printTable(navigation::PlannerParams());
+#endif
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
                "file.");

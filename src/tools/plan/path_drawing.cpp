@@ -7,7 +7,7 @@
 namespace stereo_nav::tools {
 namespace {
 
-constexpr int kLongerSide_px = 900;
+constexpr int kLongerSide_px = 1000;
 constexpr int kSubpixelBits = 4;
 const cv::Scalar kPathColour(200, 80, 0), kOutlineColour(210, 170, 120), kStartColour(60, 160, 0),
     kGoalColour(40, 40, 220);

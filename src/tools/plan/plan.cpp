@@ -47,7 +47,7 @@ navigation::Plan planAsPublished(const PlanOptions& options, const navigation::P
     return plan;
   }
   navigation::CellPath points;
-  for (const grid::Cell cell : path.cells) points.emplace_back(cell.x + 0.5, cell.y + 0.5);
+  for (const grid::Cell cell : path.cells) points.push_back(grid::centreInCells(cell));
   plan = planner.describe(navigation::thinnedAsPublished(points, params.thin_every), options.start);
   plan.text = "planned as the published work does: nothing keeps its thinned path off the obstacles. ";
   return plan;

@@ -107,7 +107,7 @@ TEST(GridSearch, FindsTheCheapestPathWhereCellsCost) {
         const GridPath path = search.find(grid, {15, 14}, {x, y});
         ASSERT_EQ(path.found(), std::isfinite(cheapest[grid.index({x, y})]));
         if (!path.found()) continue;
-        ASSERT_NEAR(costOf(grid, path), cheapest[grid.index({x, y})], 0.02) << seed; // whole numbers
+        ASSERT_NEAR(costOf(grid, path), cheapest[grid.index({x, y})], 0.02) << seed;  // whole numbers
       }
     }
   }

@@ -75,8 +75,8 @@ inline double leastDistance(const grid::OccupancyGrid& map, const grid::Footprin
           high = std::max(high, corner.y());
         }
         // The distance along the axis that separates them most: sides of the square, then of the outline.
-        double distance = std::max({left - obstacle.x() - half, obstacle.x() - half - right, low - obstacle.y() - half,
-                                    obstacle.y() - half - high});
+        double distance = std::max({left - obstacle.x() - half, obstacle.x() - half - right,
+                                    low - obstacle.y() - half, obstacle.y() - half - high});
         for (std::size_t c = 0; c < outline.size(); ++c) {
           const Eigen::Vector2d side = (outline[(c + 1) % outline.size()] - outline[c]).normalized();
           const Eigen::Vector2d out(side.y(), -side.x());
