@@ -8,8 +8,10 @@
 // the view with nothing higher than 2 cm within 10 cm, of all cells known there.
 #include <fmt/format.h>
 
+#include <boost/make_shared.hpp>
 #include <ctime>
 #include <iostream>
+#include <optional>
 
 #include "core/statistics.h"
 #include "navigation/obstacles/obstacle_map.h"

@@ -11,6 +11,9 @@
 #endif
 #include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
+#ifdef STEREO_NAV_NAVIGATION
+#include "nodes/obstacle_grid/obstacle_grid_params.h"
+#endif
 #include "nodes/laser_bridge/laser_bridge_params.h"
 #include "nodes/range_bridge/range_bridge_params.h"
 #include "nodes/recorder/recorder_node.h"
@@ -137,6 +140,8 @@ void printOthers() {
 #ifdef STEREO_NAV_NAVIGATION
   printHeading("## Path planning", "`config/planner.yaml` and files like it, read by `plan`.");
   printTable(navigation::PlannerParams());
+  printHeading("## `obstacle_grid`, node and nodelet", "`config/obstacles.yaml` and files like it (`~config`).");
+  printTable(nodes::ObstacleGridParams());
 #endif
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
