@@ -8,12 +8,12 @@ namespace {
 
 constexpr int kStep_px = 4;  // a sixteenth of all pixels is plenty for three numbers
 constexpr int kFewest = 100;
-constexpr double kGatesLeft_px = 0.8;
+constexpr double kGate_px = 0.8;  // about three deviations of a disparity
 /// The expected floor counts as so many pixels: directions that the image does not show stay as expected.
 constexpr double kPriorPixels = 20.0;
 
 /// Least squares of the plane over the pixels within the gate around `floor`; returns how many there were.
-int refit(const cv::Mat& disparity, double gate_share, const FloorPlane& expected, FloorPlane& floor) {
+int refit(const cv::Mat& disparity, double gate_px, const FloorPlane& expected, FloorPlane& floor) {
   const double u0 = disparity.cols / 2.0, v0 = disparity.rows / 2.0;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -22,8 +22,7 @@ int refit(const cv::Mat& disparity, double gate_share, const FloorPlane& expecte
     const float* row = disparity.ptr<float>(v);
     for (int u = 0; u < disparity.cols; u += kStep_px) {
       const double d = row[u], d_floor = floor.disparity(u, v);
-      if (d <= 0.0 || d_floor <= 1.0 || std::fabs(d - d_floor) > kGatesLeft_px + gate_share * d_floor)
-        continue;
+      if (d <= 0.0 || d_floor <= 1.0 || std::fabs(d - d_floor) > gate_px) continue;
       const Eigen::Vector3d x((u - u0) / u0, (v - v0) / v0, 1.0);
       normal += x * x.transpose();
       right += x * (d - expected.disparity(u, v));
@@ -61,8 +60,10 @@ FloorPlane estimatedFloor(const cv::Mat& disparity, const DisparityCamera& camer
                           double max_tilt_rad) {
   if (max_tilt_rad <= 0.0) return expected;
   FloorPlane floor = expected;
-  for (const double gate_share : {std::tan(max_tilt_rad) * 2.0, 0.03, 0.0}) {
-    if (refit(disparity, gate_share, expected, floor) < kFewest) return expected;
+  // A tilt shifts the floor's disparity by the same number of pixels everywhere.
+  const double shift_px = camera.fx * camera.baseline_m / expected.height_m * std::tan(max_tilt_rad);
+  for (const double gate_px : {kGate_px + shift_px, 2.0 * kGate_px, kGate_px}) {
+    if (refit(disparity, gate_px, expected, floor) < kFewest) return expected;
   }
   const Eigen::Vector3d now = down(floor, camera), before = down(expected, camera);
   const double tilt = std::atan2(now.cross(before).norm(), now.dot(before));
