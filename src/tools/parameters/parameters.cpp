@@ -140,7 +140,8 @@ void printOthers() {
 #ifdef STEREO_NAV_NAVIGATION
   printHeading("## Path planning", "`config/planner.yaml` and files like it, read by `plan`.");
   printTable(navigation::PlannerParams());
-  printHeading("## `obstacle_grid`, node and nodelet", "`config/obstacles.yaml` and files like it (`~config`).");
+  printHeading("## `obstacle_grid`, node and nodelet",
+               "`config/obstacles.yaml` and files like it (`~config`).");
   printTable(nodes::ObstacleGridParams());
 #endif
   printHeading("## `rig_transforms`",
