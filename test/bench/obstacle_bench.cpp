@@ -61,7 +61,8 @@ class Course {
     const ros_io::PairMessages messages = messages_.pair(pair);
     if (!processing_) processing_.emplace(messages.left_info, messages.right_info, disparity_);
     const auto raw = [](const sensor_msgs::Image& image) {
-      return ros_io::toMono8(boost::make_shared<sensor_msgs::Image>(image));
+      return ros_io::toMono8(boost::make_shared<sensor_msgs::Image>(image))
+          .clone();  // it shares the message's data
     };
     const cv::Mat map = processing_->disparity(processing_->rectifyLeft(raw(messages.left)),
                                                processing_->rectifyRight(raw(messages.right)));
@@ -81,7 +82,7 @@ class Course {
     const Eigen::Isometry3d T_odom_camera = simulation_.trajectory().pose(time_s) * camera_.T_base_camera;
     const grid::OccupancyGrid& grid = map_.grid();
     const double nearest_m = camera_.fx * camera_.baseline_m / disparity_.disparity_range;
-    for (double u = 4.0; u < 2.0 * camera_.cx - 4.0; u += 4.0) {
+    for (double u = firstColumn(); u < lastColumn(); u += 4.0) {
       Eigen::Vector3d direction =
           T_odom_camera.linear() * Eigen::Vector3d((u - camera_.cx) / camera_.fx, 0.0, 1.0);
       direction.z() = 0.0;
@@ -93,6 +94,12 @@ class Course {
       if (occupiedNear(grid, (origin + z_m * direction).head<2>())) ++score_.in_grid;
     }
     countFalse(grid, T_odom_camera, time_s);
+  }
+
+  /// Columns in which the block matcher can find something.
+  double firstColumn() const { return disparity_.disparity_range + 0.5 * disparity_.correlation_window_size; }
+  double lastColumn() const {
+    return processing_->calibration().width - 0.5 * disparity_.correlation_window_size;
   }
 
   static bool occupiedNear(const grid::OccupancyGrid& grid, const Eigen::Vector2d& place) {

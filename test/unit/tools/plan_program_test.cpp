@@ -40,7 +40,7 @@ TEST_F(PlanProgram, PlansOnADrawingAndWritesPictureAndBothForms) {
            " --metres-per-pixel 0.01 --start=0.55,0.35 --goal=4.3,10.0 --image " + (folder_ / "path.png") +
            " --csv " + (folder_ / "path.csv") + " --text " + (folder_ / "path.txt"));
   ASSERT_EQ(result.status, 0) << result.output;
-  EXPECT_NE(result.output.find("path of 17."), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("path of 16."), std::string::npos) << result.output;
   const auto poses = navigation::readPath(folder_ / "path.csv");
   EXPECT_LE(poses.size(), 20U);
   EXPECT_NEAR((poses.back().position_m - Eigen::Vector2d(4.3, 10.0)).norm(), 0.0, 1e-3);
