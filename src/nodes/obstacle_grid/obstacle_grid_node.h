@@ -61,8 +61,6 @@ class ObstacleGridNode {
   tf2_ros::Buffer tf_buffer_;
   tf2_ros::TransformListener tf_listener_;
   ros::Publisher publisher_;
-  std::vector<ros::Subscriber> subscribers_;
-  ros::ServiceServer clear_;
   sensor_msgs::CameraInfo::ConstPtr left_info_, right_info_;
   std::deque<Waiting> waiting_;
   std::vector<navigation::Beam> beams_;
@@ -71,10 +69,13 @@ class ObstacleGridNode {
   bool changed_ = false;
   ros_io::ProblemList problems_;
   diagnostic_updater::Updater updater_;
-  ros::WallTimer timer_;
   double last_input_s_, published_s_ = 0.0, diagnosed_s_ = 0.0;
   std::uint64_t used_ = 0, dropped_ = 0;
   double time_ms_ = 0.0;  ///< of the newest disparity image
+  // Last, so that no callback runs any more when the others are destroyed.
+  std::vector<ros::Subscriber> subscribers_;
+  ros::ServiceServer clear_;
+  ros::WallTimer timer_;
 };
 
 }  // namespace stereo_nav::nodes
