@@ -6,8 +6,14 @@
 
 #include "core/rig_file.h"
 #include "kinematics/drive_params.h"
+#ifdef STEREO_NAV_NAVIGATION
+#include "navigation/planner/planner_params.h"
+#endif
 #include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
+#ifdef STEREO_NAV_NAVIGATION
+#include "nodes/obstacle_grid/obstacle_grid_params.h"
+#endif
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "nodes/simulator/simulator_node.h"
@@ -131,6 +137,13 @@ void printOthers() {
   printHeading("## Laser odometry",
                "`config/laser_odometry.yaml` and files like it, read by `evaluate --method laser`.");
   printTable(odometry::LaserParams());
+#ifdef STEREO_NAV_NAVIGATION
+  printHeading("## Path planning", "`config/planner.yaml` and files like it, read by `plan`.");
+  printTable(navigation::PlannerParams());
+  printHeading("## `obstacle_grid`, node and nodelet",
+               "`config/obstacles.yaml` and files like it (`~config`).");
+  printTable(nodes::ObstacleGridParams());
+#endif
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
                "file.");
