@@ -1,6 +1,7 @@
 # Which parts are built, and one way to declare a library, a program and a test.
 
 option(STEREO_NAV_EXPERIMENTS "Build what only the experiments need: imu_drift, true_disparity, the workflow's tests" ON)
+option(STEREO_NAV_NAVIGATION "Build path planning and what drives the robot" ON)
 
 # stereo_nav_private_headers(<name>): lets a target of this package include "ROOM/header.h" from src/. Only in quotes, so
 # that <ros/...> stays ROS's own.
