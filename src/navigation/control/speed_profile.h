@@ -18,7 +18,7 @@ struct SpeedLimits {
   double max_turn_rate_rad_per_s = 4.0;
   double max_turn_acceleration_rad_per_s2 = 8.0;
   /// Near the end the speed falls with the distance that is left: so many m/s a metre.
-  double end_gain_per_s = 5.0;
+  double end_gain_per_s = 3.0;
 
   void describe(ParameterVisitor& visitor);
 };
