@@ -19,7 +19,8 @@ Twist PublishedPursuit::command(const DriveState& state, double /*stamp_s*/, dou
   const auto distance = [&](std::size_t i) { return (points[i].position - position).norm(); };
   const std::size_t last = points.size() - 1;
   while (nearest_ < last && distance(nearest_ + 1) < distance(nearest_)) ++nearest_;
-  finished_ = finished_ || (nearest_ > last / 2 && distance(last) < kArrived_m);
+  finished_ = finished_ ||
+              (points[last].arc_m - points[nearest_].arc_m < kNearSearch_m && distance(last) < kArrived_m);
   if (finished_) return Twist::Zero();
 
   const double look_ahead_m = params_.look_ahead_gain_s * state.twist.head<2>().norm() + params_.look_ahead_m;

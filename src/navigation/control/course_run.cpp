@@ -12,7 +12,7 @@ namespace stereo_nav::control {
 namespace {
 
 constexpr int kSubsteps = 4;
-constexpr double kNearEnd_m = 0.03;
+constexpr double kNearEnd_m = 0.03, kLastPart_m = 0.5;
 constexpr double kRest_m_per_s = 1e-3, kRest_rad_per_s = 1e-3;
 
 Eigen::Vector2d referencePoint(const DriveState& state, double reference_m) {
@@ -57,9 +57,10 @@ class Nearest {
     const double distance_m = (reference - path_.at(arc_m_).position).norm();
     return {time_s, state, std::copysign(distance_m, path_.leftOf(reference, arc_m_))};
   }
-  /// Whether the last place is near the end, or the end itself. A closed course starts near it, too.
+  /// Whether the last place is near the end, or the end itself. The course may come by the end's place
+  /// before.
   bool nearEnd(double left_m) const {
-    return arc_m_ >= path_.length_m() || (arc_m_ > 0.5 * path_.length_m() && left_m < kNearEnd_m);
+    return arc_m_ >= path_.length_m() || (path_.length_m() - arc_m_ < kLastPart_m && left_m < kNearEnd_m);
   }
 
  private:

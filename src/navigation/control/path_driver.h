@@ -89,7 +89,7 @@ class PathDriver : public Follower {
 
   ControlParams params_;
   Path path_;
-  SpeedProfile profile_;
+  PathSpeedProfile profile_;
   SpeedGovernor governor_, turn_governor_;
   CommandHistory history_;
   GoalCheck goal_check_;

@@ -55,8 +55,8 @@ void SpeedLimits::describe(ParameterVisitor& visitor) {
                "speed near the end, for each metre that is left");
 }
 
-SpeedProfile::SpeedProfile(const Path& path, const SpeedLimits& limits,
-                           const std::optional<WheelSpeedLimit>& wheels)
+PathSpeedProfile::PathSpeedProfile(const Path& path, const SpeedLimits& limits,
+                                   const std::optional<WheelSpeedLimit>& wheels)
     : end_gain_per_s_(limits.end_gain_per_s) {
   const auto& points = path.points();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -71,7 +71,7 @@ SpeedProfile::SpeedProfile(const Path& path, const SpeedLimits& limits,
   }
 }
 
-double SpeedProfile::limit(double arc_m) const {
+double PathSpeedProfile::limit(double arc_m) const {
   arc_m = std::clamp(arc_m, 0.0, arc_m_.back());
   const auto after = std::upper_bound(arc_m_.begin() + 1, arc_m_.end() - 1, arc_m);
   const std::size_t i = static_cast<std::size_t>(after - arc_m_.begin());

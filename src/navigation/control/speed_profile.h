@@ -33,11 +33,11 @@ struct WheelSpeedLimit {
 /// turning rate and its change and the wheels' speeds, and that braking suffices for what comes and for the
 /// end, where the base stands. Acceleration is not part of it: the base may come from any speed, and
 /// SpeedGovernor accelerates it.
-class SpeedProfile {
+class PathSpeedProfile {
  public:
   /// `wheels`: for a base that turns with the path and moves along its own x axis.
-  SpeedProfile(const Path& path, const SpeedLimits& limits,
-               const std::optional<WheelSpeedLimit>& wheels = std::nullopt);
+  PathSpeedProfile(const Path& path, const SpeedLimits& limits,
+                   const std::optional<WheelSpeedLimit>& wheels = std::nullopt);
 
   /// m/s, at an arc length that is held within the path.
   double limit(double arc_m) const;

@@ -32,40 +32,40 @@ SpeedLimits fastLimits() {
   return limits;
 }
 
-TEST(SpeedProfile, BrakingSufficesForTheEnd) {
-  const SpeedProfile profile(straight(10.0), fastLimits());
+TEST(PathSpeedProfile, BrakingSufficesForTheEnd) {
+  const PathSpeedProfile profile(straight(10.0), fastLimits());
   EXPECT_DOUBLE_EQ(profile.limit(0.0), 5.0);
   EXPECT_NEAR(profile.limit(9.0), std::sqrt(2.0 * 1.5 * 1.0), 1e-6);
   EXPECT_DOUBLE_EQ(profile.limit(10.0), 0.0);
 }
 
-TEST(SpeedProfile, NearTheEndTheSpeedFallsWithTheDistance) {
+TEST(PathSpeedProfile, NearTheEndTheSpeedFallsWithTheDistance) {
   SpeedLimits limits;
   limits.end_gain_per_s = 3.0;
-  EXPECT_NEAR(SpeedProfile(straight(10.0), limits).limit(9.99), 0.03, 1e-9);
+  EXPECT_NEAR(PathSpeedProfile(straight(10.0), limits).limit(9.99), 0.03, 1e-9);
 }
 
-TEST(SpeedProfile, ACurveIsTakenWithTheLateralAcceleration) {
-  const SpeedProfile profile(circle(2.0), fastLimits());
+TEST(PathSpeedProfile, ACurveIsTakenWithTheLateralAcceleration) {
+  const PathSpeedProfile profile(circle(2.0), fastLimits());
   EXPECT_NEAR(profile.limit(2.0 * kPi), std::sqrt(1.5 * 2.0), 0.02);
 }
 
-TEST(SpeedProfile, ACurveIsTakenWithTheTurningRate) {
+TEST(PathSpeedProfile, ACurveIsTakenWithTheTurningRate) {
   SpeedLimits limits = fastLimits();
   limits.max_turn_rate_rad_per_s = 0.5;
-  EXPECT_NEAR(SpeedProfile(circle(2.0), limits).limit(2.0 * kPi), 1.0, 0.01);
+  EXPECT_NEAR(PathSpeedProfile(circle(2.0), limits).limit(2.0 * kPi), 1.0, 0.01);
 }
 
-TEST(SpeedProfile, TheOuterWheelDoesNotExceedItsSpeed) {
+TEST(PathSpeedProfile, TheOuterWheelDoesNotExceedItsSpeed) {
   // On a circle of 2 m the outer wheel of a track of 1 m rolls 1.25 times as fast as the middle.
   const WheelSpeedLimit wheels{kinematics::Drive(kinematics::differentialDrive(1.0, 0.05)), 1.0};
-  const SpeedProfile profile(circle(2.0), fastLimits(), wheels);
+  const PathSpeedProfile profile(circle(2.0), fastLimits(), wheels);
   EXPECT_NEAR(profile.limit(2.0 * kPi), 1.0 / 1.25, 0.01);
 }
 
-TEST(SpeedProfile, ItSlowsDownBeforeACorner) {
+TEST(PathSpeedProfile, ItSlowsDownBeforeACorner) {
   SpeedLimits limits = fastLimits();
-  const SpeedProfile profile(Path({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}}), limits);
+  const PathSpeedProfile profile(Path({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}}), limits);
   const double in_corner = profile.limit(4.0);
   EXPECT_LT(in_corner, 0.5);
   for (double arc_m = 0.0; arc_m < 3.9; arc_m += 0.01) {
