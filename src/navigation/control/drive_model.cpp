@@ -92,6 +92,11 @@ void CommandHistory::add(double time_s, const Twist& command) {
   while (commands_.size() > 1 && commands_[1].from_s < time_s - kForgetAfter_s) commands_.pop_front();
 }
 
+void CommandHistory::replaceLast(double time_s, const Twist& command) {
+  if (!commands_.empty() && commands_.back().from_s >= time_s + params_.dead_time_s) commands_.pop_back();
+  add(time_s, command);
+}
+
 DriveState CommandHistory::predicted(const DriveState& state, double stamp_s, double until_s) const {
   DriveState result = state;
   double from_s = stamp_s;

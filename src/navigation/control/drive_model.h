@@ -55,8 +55,8 @@ class CommandHistory {
   /// A command given at `time_s`, not before the one before it. Those that ceased to act more than a second
   /// before are forgotten.
   void add(double time_s, const Twist& command);
-  /// Forgets all: the drive stands.
-  void clear() { commands_.clear(); }
+  /// What was given in place of the last command, if it was given at that time.
+  void replaceLast(double time_s, const Twist& command);
 
   /// The state at `until_s` of a drive that was in `state` at `stamp_s` (Smith predictor: the drive's model
   /// runs with the commands that are under way). The state itself when `until_s` is not later.

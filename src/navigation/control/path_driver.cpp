@@ -190,6 +190,13 @@ double PathDriver::wantedTurning(double arc_m) const {
   return wrapRadians(goal_heading_rad_ - start_heading_rad_) / path_.length_m();
 }
 
+void PathDriver::wasGiven(const Twist& twist, double now_s) {
+  history_.replaceLast(now_s, twist);
+  governor_.reset(std::min(governor_.speed_m_per_s(), twist.head<2>().norm()));
+  turn_governor_.reset(
+      std::copysign(std::min(std::abs(turn_governor_.speed_m_per_s()), std::abs(twist.z())), twist.z()));
+}
+
 void PathDriver::reanchor(const Eigen::Isometry2d& T_new_old) {
   const double turned_rad = std::atan2(T_new_old.linear()(1, 0), T_new_old.linear()(0, 0));
   path_ = moved(path_, T_new_old);

@@ -65,6 +65,9 @@ class PathDriver : public Follower {
 
   /// Drives no faster than this from the next command on.
   void limitSpeed(double most_m_per_s) { most_m_per_s_ = most_m_per_s; }
+  /// What the base was given at `now_s` in place of the last command, or without one: somebody else had to
+  /// slow it down or stop it.
+  void wasGiven(const Twist& twist, double now_s);
   /// The frame of the path has jumped: poses are given in the new one from now on, and the path stays where
   /// it was in the world: `T_new_old` takes its coordinates there.
   void reanchor(const Eigen::Isometry2d& T_new_old);
