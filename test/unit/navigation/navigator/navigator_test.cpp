@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "core/angles.h"
 #include "test_world.h"
 
@@ -145,6 +147,56 @@ TEST(Navigator, AfterAJumpOfTheMapItArrivesAtTheGoalInTheMap) {
     EXPECT_EQ(loop.navigator.mode(), NavigatorMode::kArrived) << loop.navigator.words();
     EXPECT_LT(distanceTo(loop, 3.0, 0.0), 0.05) << jump_m;
   }
+}
+
+/// Eight boxes, half of them not on the map, and ten goals in free places.
+struct FurnishedRoom {
+  explicit FurnishedRoom(unsigned seed) : random(seed) {
+    while (loop.world.boxes.size() < 8) {
+      const Eigen::Vector2d p = place();
+      const Box box{p.x(), p.y(), p.x() + 0.6, p.y() + 0.4};
+      if (!box.contains({0.0, 0.0}, 0.6)) loop.world.boxes.push_back(box);
+    }
+    loop.planner.surprise = 4;
+  }
+
+  Eigen::Vector2d place() {
+    std::uniform_real_distribution<double> coordinate(-4.4, 4.4);
+    const double x_m = coordinate(random);
+    return {x_m, coordinate(random)};
+  }
+  Eigen::Vector2d freePlace() {
+    for (;;) {
+      const Eigen::Vector2d p = place();
+      bool free = true;
+      for (const Box& box : loop.world.boxes) free = free && !box.contains(p, 0.6);
+      if (free) return p;
+    }
+  }
+
+  std::mt19937 random;
+  ClosedLoop loop;
+};
+
+TEST(Navigator, InFurnishedRoomsItReachesItsGoalsAndTouchesNothing) {
+  int goals = 0, reached = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    FurnishedRoom room(seed);
+    for (int i = 0; i < 10; ++i) {
+      const Eigen::Vector2d goal = room.freePlace();
+      room.loop.navigator.setGoal({goal, std::nullopt});
+      room.loop.run(180.0);
+      const bool arrived = room.loop.navigator.mode() == NavigatorMode::kArrived;
+      ++goals;
+      if (arrived && distanceTo(room.loop, goal.x(), goal.y()) < 0.05) ++reached;
+      if (!arrived) {
+        EXPECT_EQ(room.loop.navigator.mode(), NavigatorMode::kFailed)
+            << seed << " " << i << room.loop.navigator.words();
+      }
+    }
+    EXPECT_FALSE(room.loop.touched_in_motion) << seed;
+  }
+  EXPECT_GE(reached, 98 * goals / 100);
 }
 
 TEST(Navigator, AGoalThatIsGivenUpStopsTheBase) {
