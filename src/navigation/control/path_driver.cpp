@@ -81,7 +81,7 @@ Twist PathDriver::command(const DriveState& state, double stamp_s, double now_s)
   const DriveState acting = history_.predicted(state, stamp_s, now_s + params_.drive.dead_time_s);
   if (!phase_) start(acting);
   advancePhase(acting);
-  const Twist twist = twistOf(acting);
+  Twist twist = twistOf(acting);
   history_.add(now_s, twist);
   return twist;
 }
@@ -149,7 +149,7 @@ Twist PathDriver::followingTwist(const DriveState& state) {
   const double limit = std::max(kCreep_m_per_s, profile_.limit(at_end_of_period_m));
   FollowInput input{path_, arc_m_, state};
   input.speed_m_per_s = governor_.next(std::min(limit, most_m_per_s_), params_.period_s);
-  input.acceleration_m_per_s2 = governor_.acceleration_m_per_s2();
+  input.acceleration_m_per_s2 = governor_.acceleration();
   input.lag_s = params_.drive.steered() ? params_.drive.steering_lag_s : params_.drive.lag_s;
   input.period_s = params_.period_s;
   input.heading_rad = wantedHeading(arc_m_);

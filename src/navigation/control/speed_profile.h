@@ -62,7 +62,8 @@ class SpeedGovernor {
   double next(double limit_m_per_s, double period_s);
 
   double speed_m_per_s() const { return speed_m_per_s_; }
-  double acceleration_m_per_s2() const { return acceleration_m_per_s2_; }
+  /// m/s^2, over the period
+  double acceleration() const { return acceleration_m_per_s2_; }
 
  private:
   SpeedLimits limits_;

@@ -229,7 +229,7 @@ Twist Navigator::recoveryTwist(const Situation& situation) {
   if (reverse_) wanted = reverse_->command(situation.state, situation.odometry_stamp_s, situation.now_s);
   if (turning) wanted.z() = params_.recovery.turn_rate_rad_per_s;
   const std::string words = words_;
-  const Twist twist = checked(wanted, situation);
+  Twist twist = checked(wanted, situation);
   words_ = words;
   const bool blocked = blocked_since_s_ && situation.now_s - *blocked_since_s_ > params_.blocked_patience_s;
   const bool moving = turning || (reverse_ && !reverse_->finished());

@@ -78,7 +78,7 @@ TEST(SpeedGovernor, AcceleratesWithinItsLimitAndReachesTheSpeed) {
   SpeedLimits limits;
   SpeedGovernor governor(limits);
   EXPECT_NEAR(governor.next(1.0, 0.1), 0.15, 1e-12);
-  EXPECT_NEAR(governor.acceleration_m_per_s2(), 1.5, 1e-12);
+  EXPECT_NEAR(governor.acceleration(), 1.5, 1e-12);
   for (int i = 0; i < 10; ++i) governor.next(1.0, 0.1);
   EXPECT_DOUBLE_EQ(governor.speed_m_per_s(), 1.0);
   EXPECT_GT(governor.next(0.0, 0.1), 0.75);  // brakes, too, within its limit
