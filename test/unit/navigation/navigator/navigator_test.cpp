@@ -77,6 +77,17 @@ TEST(Navigator, WaitsForSomebodyWhoStandsBeforeItAndGoesOnAfterwards) {
   EXPECT_FALSE(loop.touched_in_motion);
 }
 
+TEST(Navigator, APlanThroughABoxIsNotFollowedIntoIt) {
+  ClosedLoop loop;
+  loop.planner.blind = true;
+  loop.world.boxes.push_back({2.0, -1.0, 2.5, 1.0});
+  loop.navigator.setGoal({{4.0, 0.0}, std::nullopt});
+  loop.run(180.0);
+  EXPECT_EQ(loop.navigator.mode(), NavigatorMode::kFailed);
+  EXPECT_TRUE(says(loop, "the way is blocked")) << loop.navigator.words();
+  EXPECT_FALSE(loop.touched_in_motion);
+}
+
 TEST(Navigator, ABaseThatDoesNotMoveIsStuckAndSaysSo) {
   ClosedLoop loop;
   loop.wheels_blocked = true;

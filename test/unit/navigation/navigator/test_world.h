@@ -43,6 +43,7 @@ class TestPlanner : public RoutePlanner {
   void look(const Eigen::Vector2d& p_map) { p_map_ = p_map; }
 
   std::size_t surprise = 1000;
+  bool blind = false;  ///< knows of no box at all
   int plans = 0, cleared = 0;
 
  private:
