@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "navigation/control/drive_model.h"
+#include "navigation/navigator/surroundings.h"
+
+namespace stereo_nav::navigator {
+
+/// How far ahead motion is checked.
+struct MotionCheckParams {
+  double horizon_s = 1.0;
+  double length_m = 0.5, width_m = 0.5;  ///< of the base, a rectangle about base_link
+  double margin_m = 0.05;                ///< kept free around it
+  /// Whether it may move where nothing has been seen: for a robot that is watched, or whose sensors see all
+  /// around.
+  bool into_unseen = false;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+/// Holds the coming motion against what is seen, whatever a plan says: the drive's model runs with the
+/// command for the horizon and brakes then; its outline must stay clear all the way. Where the base touches
+/// something already, a motion is safe that touches less. The circle in which it can turn on the spot counts
+/// as seen: it stands there.
+class MotionCheck {
+ public:
+  MotionCheck(const MotionCheckParams& params, const control::DriveModelParams& drive);
+
+  /// What was found.
+  struct Result {
+    double share = 1.0;      ///< of the command that is safe: 1, 0.75, 0.5, 0.25 or 0
+    bool by_unseen = false;  ///< what limits it is a place that was not seen, not an obstacle
+  };
+  Result check(const control::DriveState& state, const control::Twist& command,
+               const Surroundings& surroundings) const;
+
+ private:
+  enum class Finding { kClear, kObstacle, kUnseen };
+  /// Whether each point of the outline touches something.
+  std::vector<bool> touching(const Eigen::Isometry2d& T_odom_base, const Surroundings& surroundings) const;
+  Finding along(const control::DriveState& state, const control::Twist& command,
+                const Surroundings& surroundings, const std::vector<bool>& touches) const;
+  Finding at(const Eigen::Isometry2d& T_odom_base, const Eigen::Vector2d& start,
+             const Surroundings& surroundings, const std::vector<bool>& touches) const;
+
+  MotionCheckParams params_;
+  control::DriveModelParams drive_;
+  std::vector<Eigen::Vector2d> outline_;  ///< points of the rectangle with its margin, base_link
+  double circle_m_;                       ///< radius in which the base turns on the spot
+};
+
+}  // namespace stereo_nav::navigator
