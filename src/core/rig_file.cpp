@@ -87,6 +87,7 @@ void SensorMounting::setRotation(const Eigen::Matrix3d& R_base_sensor) {
 void Mounting::describe(ParameterVisitor& visitor) {
   visitSection(visitor, "camera", camera);
   visitSection(visitor, "imu", imu);
+  visitSection(visitor, "laser", laser);
 }
 
 RigFile::RigFile(std::string text, std::string source)

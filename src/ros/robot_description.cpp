@@ -104,6 +104,9 @@ std::vector<geometry_msgs::TransformStamped> fixedTransforms(const RobotGeometry
   std::vector<geometry_msgs::TransformStamped> transforms = {
       toMessage(camera_parent, robot.camera_frame, T_parent_camera),
       toMessage(robot.base_frame, robot.imu_frame, robot.mounting.imu.T_base_sensor())};
+  if (!robot.laser_frame.empty())
+    transforms.push_back(
+        toMessage(robot.base_frame, robot.laser_frame, robot.mounting.laser.T_base_sensor()));
   for (const auto& range : robot.ranges)
     transforms.push_back(toMessage(robot.base_frame, range.frame(), range.mounting.T_base_sensor()));
   return transforms;

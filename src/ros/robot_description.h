@@ -21,6 +21,7 @@ struct RobotGeometry {
   std::vector<BaseRangeParams> ranges;
   std::string base_frame = "base_link";
   std::string camera_frame, imu_frame;
+  std::string laser_frame;  ///< empty: the rig file has no section `laser`
 };
 
 /// Sensors that do not move against the base, and the camera on the servo that carries it. Throws

@@ -58,6 +58,15 @@ TEST(RobotBase, TheLaserScansAndRangeFindersThatTheRigFileLacksRest) {
       << "it rests, and does not end";
 }
 
+TEST(RobotBase, TheLaserTellsWhereTheBaseIs) {
+  ros::NodeHandle handle;
+  std::optional<nav_msgs::Odometry> odometry;
+  const ros::Subscriber subscriber = handle.subscribe<nav_msgs::Odometry>(
+      "laser/odom", 10, [&](const nav_msgs::Odometry::ConstPtr& message) { odometry = *message; });
+  ASSERT_TRUE(spinUntil([&] { return odometry.has_value(); }));
+  EXPECT_EQ(odometry->child_frame_id, "base_link");
+}
+
 TEST(RobotBase, TheCamerasTurnWithTheServoThatCarriesThem) {
   ros::NodeHandle handle;
   tf2_ros::Buffer buffer;
@@ -98,6 +107,7 @@ TEST(RobotBase, EachTransformHasOnePublisher) {
       {"camera_tilt_link", "/tf of /robot_state_publisher"},
       {"imu_link", "/tf_static of /rig_transforms"},
       {"camera_left_optical", "/tf_static of /rig_transforms"},
+      {"laser_link", "/tf_static of /rig_transforms"},
       {"range_front", "/tf_static of /rig_transforms"}};
   EXPECT_TRUE(spinUntil([&] { return publishers.size() >= expected.size(); }));
   for (const auto& [frame, publisher] : expected)

@@ -39,6 +39,7 @@ RobotGeometry readGeometry(const RigTransformsParams& params, const RigFile& rig
   robot.base_frame = params.base_frame;
   robot.camera_frame = params.camera_frame;
   robot.imu_frame = params.imu_frame;
+  if (!rig.section(rig_sections::kLaser).IsNull()) robot.laser_frame = params.laser_frame;
   BaseBridgeParams base;
   stereo_nav::readParameters(rig.section(rig_sections::kBase), rig.sectionName(rig_sections::kBase), base);
   base.checkNames();
@@ -77,6 +78,7 @@ int run() {
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "from " + rig);
     addPose(status, "camera", mounting.camera);
     addPose(status, "IMU", mounting.imu);
+    if (!robot.laser_frame.empty()) addPose(status, "laser", mounting.laser);
   });
   const ros::WallTimer timer =
       handle.createWallTimer(ros::WallDuration(1.0), [&](const ros::WallTimerEvent&) { updater.update(); });

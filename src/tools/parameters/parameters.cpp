@@ -9,6 +9,7 @@
 #include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
 #include "nodes/laser_bridge/laser_bridge_params.h"
+#include "nodes/laser_odometry/laser_odometry_node_params.h"
 #include "nodes/range_bridge/range_bridge_params.h"
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
@@ -16,7 +17,6 @@
 #include "nodes/teleop/key_driver.h"
 #include "nodes/visual_odometry/visual_odometry_params.h"
 #include "nodes/wheel_odometry/wheel_odometry_node_params.h"
-#include "odometry/laser/laser_params.h"
 #include "ros/base_bridge_params.h"
 #include "ros/capture_setup.h"
 #include "ros/stereo_processing.h"
@@ -128,9 +128,10 @@ void printOthers() {
       "Its own, and then those of the odometry: `config/wheel.yaml` and files like it (`~config`), also read by "
       "`evaluate --method wheel` and `calibrate_wheels`. The wheels are the section `drive` of `~rig`.");
   printTable(nodes::WheelOdometryNodeParams());
-  printHeading("## Laser odometry",
-               "`config/laser_odometry.yaml` and files like it, read by `evaluate --method laser`.");
-  printTable(odometry::LaserParams());
+  printHeading("## `laser_odometry`, node and nodelet",
+               "Its own, and then those of the odometry: `config/laser_odometry.yaml` and files like it "
+               "(`~config`), also read by `evaluate --method laser`.");
+  printTable(nodes::LaserOdometryNodeParams());
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
                "file.");
