@@ -141,8 +141,8 @@ class ShiftSearch {
     int sum = 0;
     for (const Eigen::Vector2d& p : turned_[static_cast<std::size_t>(candidate.iyaw + nyaw_)])
       sum += (raster_.*hits)(p + shift.head<2>());
-    candidate.score = kWeight * sum / (2.0 * static_cast<double>(points_.size())) -
-                      0.5 * std::min(9.0, shift.dot(information_ * shift));
+    candidate.score =
+        searchScore(sum / (2.0 * static_cast<double>(points_.size())), shift.dot(information_ * shift));
     return candidate;
   }
 
@@ -165,6 +165,10 @@ class ShiftSearch {
 };
 
 }  // namespace
+
+double searchScore(double share, double squared_shift) {
+  return kWeight * share - 0.5 * std::min(9.0, squared_shift);
+}
 
 std::vector<Eigen::Vector3d> searchShifts(const std::vector<Eigen::Vector2d>& points_base, const LineMap& map,
                                           const PlanarState& prior, const Eigen::Matrix3d& prior_covariance) {

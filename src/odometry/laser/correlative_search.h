@@ -17,6 +17,10 @@ namespace stereo_nav::odometry {
 std::vector<Eigen::Vector3d> searchShifts(const std::vector<Eigen::Vector2d>& points_base, const LineMap& map,
                                           const PlanarState& prior, const Eigen::Matrix3d& prior_covariance);
 
+/// What is compared: the share of points on the map against the squared shift over the prior's covariance, in
+/// the logarithm of a likelihood. A scan all on the map outweighs any prior.
+double searchScore(double share, double squared_shift);
+
 constexpr std::size_t kSearchResults = 5;
 /// Raster of the search.
 constexpr double kSearchStep_m = 0.1;

@@ -25,15 +25,19 @@ constexpr double kCertainScale = 2.0;
 constexpr double kMostSurprise = 16.0;
 /// Residuals that are so much larger than the laser's noise are no fit.
 constexpr double kMostResidualScale = 2.5;
-/// Residuals larger than that may come from a wrong minimum, which a search finds out of.
+/// Residuals larger than that, or a shift that one of twenty good priors makes necessary, may come from a wrong
+/// minimum, which a search finds out of.
 constexpr double kDoubtfulScale = 1.5;
+constexpr double kDoubtfulSurprise = 7.8;
 /// A prior that is less certain than this may lie beyond the reach of Gauss-Newton.
 constexpr double kVague_m = 0.15;
 constexpr double kVague_rad = 0.07;
-/// By which a pose that was searched for must fit better than one from the prior, which fits or is doubtful:
-/// the map may hold a place twice.
-constexpr double kBetterShare = 0.15;
-constexpr double kBetterShareInDoubt = 0.03;
+
+/// How likely a pose is, by the points on the map and by the prior, as the search weighs them: the map may hold
+/// a place twice.
+double scoreOf(const Registration& registration) {
+  return searchScore(registration.inlier_share, registration.surprise);
+}
 
 LaserParams checkedLaser(const LaserParams& params) {
   validateParameters(params, "laser odometry");
@@ -152,20 +156,20 @@ Registration LaserOdometry::registerOrSearch(const LaserPoints& points, const Sw
   const bool vague =
       covariance(0, 0) + covariance(1, 1) > kVague_m * kVague_m || covariance(2, 2) > kVague_rad * kVague_rad;
   const Registration direct = registerScan(points, sweep, map_, prior, covariance, params_);
-  const bool doubtful = direct.residual_scale > kDoubtfulScale || !refusal(direct).empty();
+  const bool doubtful = direct.residual_scale > kDoubtfulScale || direct.surprise > kDoubtfulSurprise ||
+                        !refusal(direct).empty();
   if (!vague && !doubtful) return direct;
   std::vector<Eigen::Vector2d> points_base;
   sweep.undistort(points, prior.correction, points_base);
   std::vector<Eigen::Vector3d> starts =
       searchShifts(points_base, map_, prior, covariance.topLeftCorner<3, 3>());
   starts.emplace_back(Eigen::Vector3d::Zero());  // the prior itself, but with the walls right beside it
-  Registration best;
+  Registration best = direct;
   for (const Eigen::Vector3d& start : starts) {
     const Registration found = registerScan(points, sweep, map_, prior, covariance, params_, start);
-    if (found.inlier_share > best.inlier_share) best = found;
+    if (scoreOf(found) > scoreOf(best)) best = found;
   }
-  const double better = doubtful ? kBetterShareInDoubt : kBetterShare;
-  return best.inlier_share > direct.inlier_share + better ? best : direct;
+  return best;
 }
 
 std::string LaserOdometry::refusal(const Registration& registration) const {

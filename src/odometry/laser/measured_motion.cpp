@@ -13,8 +13,8 @@ constexpr double kHistory_s = 30.0;
 /// Wheels count while their driver is silent, too; but in a longer gap the motion of a single scan is not
 /// known.
 constexpr double kMaxWheelGap_s = 10.0;
-/// No wheels go that far and that fast: m and m/s, or rad and rad/s.
-constexpr double kLeastJump = 0.1;
+/// No wheels go that fast, m/s or rad/s; stamps that jitter only feign it over a short way, m or rad.
+constexpr double kLeastJump = 1.5;
 constexpr double kFastest = 20.0;
 constexpr double kPiece_s = 0.025;
 constexpr int kMostPieces = 200;
