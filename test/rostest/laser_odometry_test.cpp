@@ -59,7 +59,8 @@ class ScanningRobot {
            odometry_.getNumPublishers() > 0 && status_.getNumPublishers() > 0;
   }
 
-  /// Publishes `count` scans, with wheels and IMU to their ends where `prior` says so, and waits for what comes back.
+  /// Publishes `count` scans, with wheels and IMU to their ends where `prior` says so, and waits for what
+  /// comes back.
   void drive(int count, bool prior, const std::function<void(sensor_msgs::LaserScan&)>& change = {}) {
     for (int i = 0; i < count; ++i) {
       const std::size_t known = odometry.size();
@@ -223,7 +224,8 @@ TEST(LaserOdometryNode, WhatTheScanDoesNotTellIsSaid) {
   EXPECT_EQ(status.state, LaserStatus::PARTLY);
   ASSERT_EQ(status.untold.size(), 1u);
   EXPECT_GT(std::abs(status.untold[0].x), 0.99);
-  EXPECT_NE(status.reason.find("no wall in reach tells the motion along"), std::string::npos) << status.reason;
+  EXPECT_NE(status.reason.find("no wall in reach tells the motion along"), std::string::npos)
+      << status.reason;
   EXPECT_EQ(status.scans_partly, 29u) << "all but the first";
   EXPECT_TRUE(spinUntil([&] { return probe.says(health, "no wall in reach"); })) << probe.textOf(health);
   EXPECT_EQ(probe.levelOf(health), 0) << "wheels tell the way";

@@ -93,10 +93,11 @@ void LaserOdometryNode::handleScan(const topic_tools::ShapeShifter::ConstPtr& me
   last_scan_s_ = steadySeconds_s();
   health_.set("silence", true, "");
   if (message->getDataType() != ros::message_traits::datatype<sensor_msgs::LaserScan>()) {
-    health_.set("scan", true,
-                fmt::format("{} is {}, expected is sensor_msgs/LaserScan; of a laser with several echoes take "
-                            "one (laser_proc)",
-                            scan_.getTopic(), message->getDataType()));
+    health_.set(
+        "scan", true,
+        fmt::format("{} is {}, expected is sensor_msgs/LaserScan; of a laser with several echoes take "
+                    "one (laser_proc)",
+                    scan_.getTopic(), message->getDataType()));
     return;
   }
   try {
@@ -119,18 +120,20 @@ void LaserOdometryNode::addScan(const sensor_msgs::LaserScan& scan) {
 void LaserOdometryNode::handleWheels(const nav_msgs::Odometry::ConstPtr& message) {
   const auto T_wheels_body = toIsometry(message->pose.pose);
   if (!T_wheels_body) {
-    health_.set("wheels", false,
-                fmt::format("{} holds no pose: its numbers are NaN, or its quaternion is zero; it is not used",
-                            wheels_.getTopic()));
+    health_.set(
+        "wheels", false,
+        fmt::format("{} holds no pose: its numbers are NaN, or its quaternion is zero; it is not used",
+                    wheels_.getTopic()));
     return;
   }
   const std::string frame = ros_io::withoutSlash(message->child_frame_id);
   std::string problem;
   const auto T_base_body = frame.empty() ? Eigen::Isometry3d::Identity() : mountingOf(frame, problem);
   health_.set("wheels", false,
-              T_base_body ? ""
-                          : fmt::format("the poses of {} are of {}, which is taken for {}: tf does not know it",
-                                        wheels_.getTopic(), frame, params_.base_frame));
+              T_base_body
+                  ? ""
+                  : fmt::format("the poses of {} are of {}, which is taken for {}: tf does not know it",
+                                wheels_.getTopic(), frame, params_.base_frame));
   const Eigen::Isometry3d T_wheels_base =
       *T_wheels_body * T_base_body.value_or(Eigen::Isometry3d::Identity()).inverse();
   session_.addWheels(message->header.stamp.toSec(), planarPart(T_wheels_base));

@@ -49,7 +49,7 @@ std::optional<double> LaserSession::ahead_s(const std::optional<double>& newest_
 bool LaserSession::covered(const odometry::LaserScan& scan) const {
   const double end_s = scan.time_s + scan.sweep_s();
   for (const auto& newest_s : {newest_wheels_s_, newest_imu_s_}) {
-    if (newest_s && *newest_s < end_s && *newest_s > end_s - kHeard_s) return false;
+    if (newest_s && *newest_s<end_s&& * newest_s> end_s - kHeard_s) return false;
   }
   return true;
 }
@@ -80,10 +80,10 @@ void LaserSession::restart() {
 
 void LaserSession::process(const odometry::LaserScan& scan, LaserSessionOutput& output) {
   if (last_ && scan.time_s < last_->time_s - kSetBack_s) {
-    output.announcements.push_back(
-        fmt::format("the stamps of the scans went back by {:.1f} s: the clock was set back, or a bag starts again. The "
-                    "odometry goes on from its last pose",
-                    last_->time_s - scan.time_s));
+    output.announcements.push_back(fmt::format(
+        "the stamps of the scans went back by {:.1f} s: the clock was set back, or a bag starts again. The "
+        "odometry goes on from its last pose",
+        last_->time_s - scan.time_s));
     restart();
   }
   if (last_ && scan.time_s <= last_->time_s) {

@@ -86,9 +86,7 @@ struct ScoredShift {
   double score;
   int ix, iy, iyaw;  ///< steps
 
-  Eigen::Vector3d shift() const {
-    return {ix * kSearchStep_m, iy * kSearchStep_m, iyaw * kSearchStep_rad};
-  }
+  Eigen::Vector3d shift() const { return {ix * kSearchStep_m, iy * kSearchStep_m, iyaw * kSearchStep_rad}; }
 };
 
 bool isBetter(const ScoredShift& a, const ScoredShift& b) {

@@ -8,8 +8,8 @@
 
 namespace stereo_nav::odometry {
 
-/// The shifts (axes of odom: m, m, rad) of the prior's pose at which most points of a scan fall onto points of
-/// the map, among all within three standard deviations of the prior, on a raster (Olson 2009, "Real-time
+/// The shifts (axes of odom: m, m, rad) of the prior's pose at which most points of a scan fall onto points
+/// of the map, among all within three standard deviations of the prior, on a raster (Olson 2009, "Real-time
 /// correlative scan matching": a coarse raster says where the fine one is looked at). They need no start near
 /// the solution, and are as exact as the raster. At most `kSearchResults`, the best one first, none beside a
 /// better one: places that look alike differ by less than the raster's errors, and only a registration at

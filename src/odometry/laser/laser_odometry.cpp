@@ -25,16 +25,18 @@ constexpr double kCertainScale = 2.0;
 constexpr double kMostSurprise = 16.0;
 /// Residuals that are so much larger than the laser's noise are no fit.
 constexpr double kMostResidualScale = 2.5;
-/// Residuals larger than that, or a shift that one of twenty good priors makes necessary, may come from a wrong
-/// minimum, which a search finds out of.
+/// Residuals larger than that, or a shift that one of a hundred good priors makes necessary, may come from a
+/// wrong minimum, which a search finds out of.
 constexpr double kDoubtfulScale = 1.5;
-constexpr double kDoubtfulSurprise = 7.8;
+constexpr double kDoubtfulSurprise = 11.3;
+/// By which a pose must fit better that is further from the prior than one which fits: the map may hold a
+/// place twice.
+constexpr double kBetterShare = 0.15;
 /// A prior that is less certain than this may lie beyond the reach of Gauss-Newton.
 constexpr double kVague_m = 0.15;
 constexpr double kVague_rad = 0.07;
 
-/// How likely a pose is, by the points on the map and by the prior, as the search weighs them: the map may hold
-/// a place twice.
+/// How likely a pose is, by the points on the map and by the prior, as the search weighs them.
 double scoreOf(const Registration& registration) {
   return searchScore(registration.inlier_share, registration.surprise);
 }
@@ -76,10 +78,10 @@ void LaserOdometry::check(const LaserScan& scan, const Eigen::Isometry3d& T_base
   }
   const double tilt_deg = kDegPerRad * std::acos(std::min(1.0, std::abs(T_base_laser(2, 2))));
   if (tilt_deg > kMostTilt_deg) {
-    throw InputError(
-        fmt::format("the laser is mounted with a tilt of {:.0f} deg, at most are {:.0f}: the plane of its beams must "
-                    "be that of the floor; correct its transform in tf, or mount it level",
-                    tilt_deg, kMostTilt_deg));
+    throw InputError(fmt::format(
+        "the laser is mounted with a tilt of {:.0f} deg, at most are {:.0f}: the plane of its beams must "
+        "be that of the floor; correct its transform in tf, or mount it level",
+        tilt_deg, kMostTilt_deg));
   }
 }
 
@@ -158,7 +160,7 @@ Registration LaserOdometry::registerOrSearch(const LaserPoints& points, const Sw
   const Registration direct = registerScan(points, sweep, map_, prior, covariance, params_);
   const bool doubtful = direct.residual_scale > kDoubtfulScale || direct.surprise > kDoubtfulSurprise ||
                         !refusal(direct).empty();
-  if (!vague && !doubtful) return direct;
+  if (!doubtful && (!vague || direct.inlier_share > 1.0 - kBetterShare)) return direct;
   std::vector<Eigen::Vector2d> points_base;
   sweep.undistort(points, prior.correction, points_base);
   std::vector<Eigen::Vector3d> starts =
@@ -167,7 +169,9 @@ Registration LaserOdometry::registerOrSearch(const LaserPoints& points, const Sw
   Registration best = direct;
   for (const Eigen::Vector3d& start : starts) {
     const Registration found = registerScan(points, sweep, map_, prior, covariance, params_, start);
-    if (scoreOf(found) > scoreOf(best)) best = found;
+    const bool allowed = doubtful || found.surprise <= direct.surprise ||
+                         found.inlier_share > direct.inlier_share + kBetterShare;
+    if (allowed && scoreOf(found) > scoreOf(best)) best = found;
   }
   return best;
 }
@@ -219,8 +223,7 @@ void LaserOdometry::complete(const FilterMoment& before, LaserOdometryResult& re
   if (!last_s_) return;
   const double duration_s = result.time_s - *last_s_;
   result.twist = logPlanar(before.T_odom_base.inverse() * now.T_odom_base) / duration_s;
-  result.twist_covariance =
-      motionCovariance(before, filter_.transition(), now) / (duration_s * duration_s);
+  result.twist_covariance = motionCovariance(before, filter_.transition(), now) / (duration_s * duration_s);
 }
 
 }  // namespace stereo_nav::odometry

@@ -31,12 +31,12 @@ struct LaserOdometryResult {
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
   Eigen::Matrix3d twist_covariance = Eigen::Vector3d::Constant(1e6).asDiagonal();
   bool wheels = false, gyroscope = false;  ///< whether these made the prior
-  std::vector<Eigen::Vector3d> untold;  ///< directions of motion (ToldDirections::untold)
-  std::string reason;                   ///< why it coasts, or what is not told; empty while it tracks
-  std::size_t points = 0;               ///< returns of the scan
-  double inlier_share = 0.0;            ///< of the points, that lie on the map
-  double residual_scale = 1.0;          ///< of their residuals; 1: the noise is as the parameters say
-  double least_share = 0.0;             ///< ToldDirections::least_share
+  std::vector<Eigen::Vector3d> untold;     ///< directions of motion (ToldDirections::untold)
+  std::string reason;                      ///< why it coasts, or what is not told; empty while it tracks
+  std::size_t points = 0;                  ///< returns of the scan
+  double inlier_share = 0.0;               ///< of the points, that lie on the map
+  double residual_scale = 1.0;             ///< of their residuals; 1: the noise is as the parameters say
+  double least_share = 0.0;                ///< ToldDirections::least_share
   Registration registration;
   bool keyframe = false;  ///< the scan was added to the map
   bool at_rest = false;   ///< RestWatch

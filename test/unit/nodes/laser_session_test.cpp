@@ -75,7 +75,8 @@ TEST_F(LaserSessionTest, aClockThatIsSetBackMovesNoRobot) {
   output = session.take(2.1);
   ASSERT_EQ(output.readings.size(), 1u);
   ASSERT_EQ(output.announcements.size(), 1u);
-  EXPECT_NE(output.announcements[0].find("went back by 101.0 s"), std::string::npos) << output.announcements[0];
+  EXPECT_NE(output.announcements[0].find("went back by 101.0 s"), std::string::npos)
+      << output.announcements[0];
   EXPECT_LT((output.readings[0].result.T_odom_base.translation() - before.translation()).norm(), 1e-6);
   session.addScan(scan(1.1), 2.2);
   EXPECT_EQ(session.take(2.2).readings.size(), 1u);
