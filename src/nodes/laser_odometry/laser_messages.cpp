@@ -15,16 +15,21 @@ static_assert(static_cast<int>(State::kTracking) == LaserStatus::TRACKING &&
                   static_cast<int>(State::kCoasting) == LaserStatus::COASTING,
               "LaserStatus.state carries the value of LaserOdometryResult::State");
 
+ros::Time stampOf(const LaserReading& reading) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(reading.stamp_ns));
+}
+
 void fill(const Matrix6d& covariance, boost::array<double, 36>& message) {
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
 }
 
 }  // namespace
 
-nav_msgs::Odometry toOdometry(const odometry::LaserOdometryResult& result, const std::string& odom_frame,
+nav_msgs::Odometry toOdometry(const LaserReading& reading, const std::string& odom_frame,
                               const std::string& base_frame) {
+  const odometry::LaserOdometryResult& result = reading.result;
   nav_msgs::Odometry odometry;
-  odometry.header.stamp = ros::Time(result.time_s);
+  odometry.header.stamp = stampOf(reading);
   odometry.header.frame_id = odom_frame;
   odometry.child_frame_id = base_frame;
   odometry.pose.pose = tf2::toMsg(inSpace(result.T_odom_base));
@@ -50,7 +55,7 @@ std::optional<Eigen::Isometry3d> toIsometry(const geometry_msgs::Pose& pose) {
 LaserStatus toStatus(const LaserReading& reading, const ScanCounts& counts, const std::string& laser_frame) {
   const odometry::LaserOdometryResult& result = reading.result;
   LaserStatus status;
-  status.header.stamp = ros::Time(result.time_s);
+  status.header.stamp = stampOf(reading);
   status.header.frame_id = laser_frame;
   status.state = static_cast<std::uint8_t>(result.state);
   status.reason = result.reason;

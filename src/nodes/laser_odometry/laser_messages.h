@@ -12,7 +12,7 @@ namespace stereo_nav::nodes {
 
 /// The pose with its covariance in the axes of `odom_frame`, the velocity in those of `base_frame`, as
 /// nav_msgs/Odometry has them; stamped as the scan is.
-nav_msgs::Odometry toOdometry(const odometry::LaserOdometryResult& result, const std::string& odom_frame,
+nav_msgs::Odometry toOdometry(const LaserReading& reading, const std::string& odom_frame,
                               const std::string& base_frame);
 
 /// Nothing where the numbers are no pose.

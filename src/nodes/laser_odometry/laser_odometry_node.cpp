@@ -112,7 +112,8 @@ void LaserOdometryNode::addScan(const sensor_msgs::LaserScan& scan) {
   std::string problem;
   laser_frame_ = frame;
   session_.setMounting(mountingOf(frame, problem));
-  session_.addScan(ros_io::toLaserScan(scan), steadySeconds_s());
+  session_.addScan(ros_io::toLaserScan(scan), static_cast<std::int64_t>(scan.header.stamp.toNSec()),
+                   steadySeconds_s());
   health_.set("scan", true, "");
   publishDue();
 }
@@ -157,7 +158,7 @@ void LaserOdometryNode::publishDue() {
 }
 
 void LaserOdometryNode::publish(const LaserReading& reading) {
-  const nav_msgs::Odometry odometry = toOdometry(reading.result, params_.odom_frame, params_.base_frame);
+  const nav_msgs::Odometry odometry = toOdometry(reading, params_.odom_frame, params_.base_frame);
   odometry_publisher_.publish(odometry);
   if (params_.publish_tf) transform_publisher_.publish(odometry);
   status_publisher_.publish(toStatus(reading, session_.counts(), laser_frame_));

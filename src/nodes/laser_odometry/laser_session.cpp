@@ -21,10 +21,10 @@ LaserSession::LaserSession(const odometry::LaserParams& params, double prior_wai
       prior_wait_s_(prior_wait_s),
       odometry_(std::make_unique<odometry::LaserOdometry>(params)) {}
 
-void LaserSession::addScan(odometry::LaserScan scan, double now_s) {
+void LaserSession::addScan(odometry::LaserScan scan, std::int64_t stamp_ns, double now_s) {
   ++counts_.received;
   newest_scan_s_ = scan.time_s;
-  waiting_.push_back({std::move(scan), now_s});
+  waiting_.push_back({std::move(scan), stamp_ns, now_s});
   if (T_base_laser_ || waiting_.size() <= kMostScans) return;
   waiting_.pop_front();
   ++counts_.dropped;
@@ -62,10 +62,10 @@ bool LaserSession::due(const Waiting& waiting, double now_s) const {
 LaserSessionOutput LaserSession::take(double now_s) {
   LaserSessionOutput output;
   while (!waiting_.empty() && due(waiting_.front(), now_s)) {
-    const odometry::LaserScan scan = std::move(waiting_.front().scan);
+    const Waiting next = std::move(waiting_.front());
     waiting_.pop_front();
-    if (!covered(scan)) ++counts_.without_prior;
-    process(scan, output);
+    if (!covered(next.scan)) ++counts_.without_prior;
+    process(next, output);
   }
   return output;
 }
@@ -78,7 +78,8 @@ void LaserSession::restart() {
   last_.reset();
 }
 
-void LaserSession::process(const odometry::LaserScan& scan, LaserSessionOutput& output) {
+void LaserSession::process(const Waiting& waiting, LaserSessionOutput& output) {
+  const odometry::LaserScan& scan = waiting.scan;
   if (last_ && scan.time_s < last_->time_s - kSetBack_s) {
     output.announcements.push_back(fmt::format(
         "the stamps of the scans went back by {:.1f} s: the clock was set back, or a bag starts again. The "
@@ -92,6 +93,7 @@ void LaserSession::process(const odometry::LaserScan& scan, LaserSessionOutput& 
   }
   try {
     LaserReading reading;
+    reading.stamp_ns = waiting.stamp_ns;
     reading.result = odometry_->process(scan, *T_base_laser_);
     reading.beams = scan.ranges_m.size();
     last_ = reading.result;

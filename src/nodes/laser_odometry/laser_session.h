@@ -14,6 +14,7 @@ namespace stereo_nav::nodes {
 
 /// What the odometry made of a scan.
 struct LaserReading {
+  std::int64_t stamp_ns = 0;  ///< of the scan, as it came: seconds in a double are not that exact
   odometry::LaserOdometryResult result;
   std::size_t beams = 0;
 };
@@ -44,7 +45,7 @@ class LaserSession {
 
   /// A scan that arrives at `now_s`, on a clock that only runs forward. At most 20 wait: of more the oldest
   /// goes ahead without a prior, or is dropped where the mounting is not known.
-  void addScan(odometry::LaserScan scan, double now_s);
+  void addScan(odometry::LaserScan scan, std::int64_t stamp_ns, double now_s);
   void addWheels(double time_s, const Eigen::Isometry2d& T_wheels_base);
   void addImu(const ImuSample& sample, const Eigen::Matrix3d& R_base_imu);
   /// Nothing: it is not known; scans wait.
@@ -65,6 +66,7 @@ class LaserSession {
  private:
   struct Waiting {
     odometry::LaserScan scan;
+    std::int64_t stamp_ns;
     double arrival_s;
   };
 
@@ -72,7 +74,7 @@ class LaserSession {
   bool covered(const odometry::LaserScan& scan) const;
   bool due(const Waiting& waiting, double now_s) const;
   void restart();
-  void process(const odometry::LaserScan& scan, LaserSessionOutput& output);
+  void process(const Waiting& waiting, LaserSessionOutput& output);
 
   odometry::LaserParams params_;
   double prior_wait_s_;
