@@ -4,6 +4,7 @@
 
 #include "sensors/laser/laser_device.h"
 #include "stereo_nav/core/parameter_visitor.h"
+#include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::ros_io {
 
@@ -12,7 +13,7 @@ namespace stereo_nav::ros_io {
 struct LaserBridgeParams {
   std::string port = "/dev/ttyUSB0";
   std::string by_id_directory = "/dev/serial/by-id";
-  std::string frame_id = "laser_link";
+  std::string frame_id = ros_io::frames::kLaserLink;
   laser::LaserDeviceParams device;
 
   void describe(ParameterVisitor& visitor);

@@ -105,6 +105,8 @@ std::optional<Eigen::Isometry3d> RecordedRobot::mounting(const std::string& fram
     return toIsometry(
         transforms_.lookupTransform(frames::kBase, withoutSlash(frame), ros::Time(0)).transform);
   } catch (const tf2::TransformException&) {
+    // REP-120: the base on the floor, in whose plane both move.
+    if (withoutSlash(frame) == frames::kFootprint) return Eigen::Isometry3d::Identity();
     return std::nullopt;
   }
 }

@@ -63,7 +63,7 @@ std::string missingTransform(const std::string& base_frame, const std::string& s
                              bool sensor_is_camera, const std::string& tf_error) {
   const std::string example = sensor_is_camera ? "0 0 0.283 -1.5708 0 -1.5708" : "0 0 0 0 0 0";
   const std::string mounting = sensor_is_camera ? "a camera 0.283 m above the base that looks straight ahead"
-                                                : "an IMU at the base's origin with the base's axes";
+                                                : "a sensor at the base's origin with the base's axes";
   return "waiting for the transform " + base_frame + " -> " + sensor_frame + " in tf (" + tf_error +
          "). Nothing tells where the sensor sits: start robot_state_publisher, or measure and publish it, "
          "e.g. for " +

@@ -116,6 +116,15 @@ TEST(RobotBase, AllThatTheBaseSendsIsRecorded) {
     EXPECT_EQ(recorded.count(topic), 1U) << topic;
 }
 
+TEST(RobotBase, TheLaserTellsWhereTheBaseIs) {
+  ros::NodeHandle handle;
+  std::optional<nav_msgs::Odometry> odometry;
+  const ros::Subscriber subscriber = handle.subscribe<nav_msgs::Odometry>(
+      "laser/odom", 10, [&](const nav_msgs::Odometry::ConstPtr& message) { odometry = *message; });
+  ASSERT_TRUE(spinUntil([&] { return odometry.has_value(); }));
+  EXPECT_EQ(odometry->child_frame_id, "base_link");
+}
+
 TEST(RobotBase, TheCamerasTurnWithTheServoThatCarriesThem) {
   ros::NodeHandle handle;
   tf2_ros::Buffer buffer;

@@ -32,6 +32,8 @@ constexpr const char* kCmdVelStop = "cmd_vel_stop";
 constexpr const char* kCmdVelManual = "cmd_vel_manual";    ///< teleop, operator page
 constexpr const char* kCmdVelAuto = "cmd_vel_auto";        ///< the navigator
 constexpr const char* kWheelOdometry = "wheel/odom";       ///< nav_msgs/Odometry by the wheels
+constexpr const char* kLaserOdometry = "laser/odom";       ///< nav_msgs/Odometry by the laser
+constexpr const char* kLaserStatus = "laser/status";       ///< stereo_nav/LaserStatus
 constexpr const char* kGroundTruth = "ground_truth/odom";  ///< nav_msgs/Odometry
 /// In simulated recordings: the moments at which the robot passes the way-points of its path.
 constexpr const char* kWaypoint = "ground_truth/waypoint";
@@ -44,9 +46,12 @@ namespace stereo_nav::ros_io::frames {
 
 constexpr const char* kOdom = "odom";       ///< where the odometry begins
 constexpr const char* kBase = "base_link";  ///< the robot: x forward, y left, z up
+/// The base on the floor, with its axes (REP-120).
+constexpr const char* kFootprint = "base_footprint";
 /// Frame of both cameras' images and infos: image_geometry::StereoCameraModel asserts that the two are equal.
 constexpr const char* kLeftOptical = "camera_left_optical";
-constexpr const char* kLaser = "laser";  ///< the laser, in its own axes
+constexpr const char* kLaser = "laser";           ///< the laser of an imported log, in its own axes
+constexpr const char* kLaserLink = "laser_link";  ///< the laser of a robot: x along its own zero, z upwards
 /// World of ground truth that a SLAM system made from the recording itself: right over metres, but each pose
 /// jitters by a centimetre or two, so that the poses add up to a longer way than was driven.
 constexpr const char* kCorrectedMap = "corrected_map";

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/angles.h"
+#include "core/planar_motion.h"
 #include "core/statistics.h"
 #include "odometry/laser/correlative_search.h"
 #include "stereo_nav/core/input_error.h"
@@ -14,6 +16,7 @@ namespace stereo_nav::odometry {
 namespace {
 
 constexpr std::size_t kLeastPoints = 20;
+constexpr double kMostTilt_deg = 20.0;  // beyond it distances in the plane are off by more than 6 %
 /// Good scans in succession that do not fit the map: it is that of another place.
 constexpr int kMostMisfits = 10;
 /// A scan that fits so well is believed though the prior makes it unlikely: the robot slipped, or was pushed.
@@ -22,15 +25,21 @@ constexpr double kCertainScale = 2.0;
 constexpr double kMostSurprise = 16.0;
 /// Residuals that are so much larger than the laser's noise are no fit.
 constexpr double kMostResidualScale = 2.5;
-/// Residuals larger than that may come from a wrong minimum, which a search finds out of.
+/// Residuals larger than that, or a shift that one of a hundred good priors makes necessary, may come from a
+/// wrong minimum, which a search finds out of.
 constexpr double kDoubtfulScale = 1.5;
+constexpr double kDoubtfulSurprise = 11.3;
+/// By which a pose must fit better that is further from the prior than one which fits: the map may hold a
+/// place twice.
+constexpr double kBetterShare = 0.15;
 /// A prior that is less certain than this may lie beyond the reach of Gauss-Newton.
 constexpr double kVague_m = 0.15;
 constexpr double kVague_rad = 0.07;
-/// By which a pose that was searched for must fit better than one from the prior, which fits or is doubtful:
-/// the map may hold a place twice.
-constexpr double kBetterShare = 0.15;
-constexpr double kBetterShareInDoubt = 0.03;
+
+/// How likely a pose is, by the points on the map and by the prior, as the search weighs them.
+double scoreOf(const Registration& registration) {
+  return searchScore(registration.inlier_share, registration.surprise);
+}
 
 LaserParams checkedLaser(const LaserParams& params) {
   validateParameters(params, "laser odometry");
@@ -57,30 +66,40 @@ LaserOdometry::LaserOdometry(const LaserParams& params)
 void LaserOdometry::setPose(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance) {
   filter_.setPose(T_odom_base, covariance);
   map_.clear();
+  rest_ = RestWatch();
 }
 
-void LaserOdometry::check(const LaserScan& scan) const {
+void LaserOdometry::check(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser) const {
   if (last_s_ && !(scan.time_s > *last_s_)) {
     throw InputError(fmt::format(
         "the stamp {:.6f} s of the scan is not later than the last one, {:.6f} s; scans must come in "
         "order of time, each once",
         scan.time_s, *last_s_));
   }
+  const double tilt_deg = kDegPerRad * std::acos(std::min(1.0, std::abs(T_base_laser(2, 2))));
+  if (tilt_deg > kMostTilt_deg) {
+    throw InputError(fmt::format(
+        "the laser is mounted with a tilt of {:.0f} deg, at most are {:.0f}: the plane of its beams must "
+        "be that of the floor; correct its transform in tf, or mount it level",
+        tilt_deg, kMostTilt_deg));
+  }
 }
 
 LaserOdometryResult LaserOdometry::process(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser) {
-  check(scan);
+  check(scan, T_base_laser);
+  const FilterMoment before = momentOf(filter_);
   filter_.beginStep();
-  const MeasuredMotion motion = inputs_.between(scan.time_s, scan.time_s + scan.sweep_s());
-  if (last_s_) {
-    filter_.predict(inputs_.between(*last_s_, scan.time_s), coasting_s_);
-  } else {
-    filter_.predict({{}, motion.translation, motion.rotation}, 0.0);  // no motion yet, but its sources
-  }
-  const Sweep sweep(filter_, motion);
+  const MeasuredMotion during = inputs_.between(scan.time_s, scan.time_s + scan.sweep_s());
+  // Before the first scan there is no motion, but its sources.
+  const MeasuredMotion since = last_s_ ? inputs_.between(*last_s_, scan.time_s)
+                                       : MeasuredMotion{{}, during.translation, during.rotation};
+  filter_.predict(since, coasting_s_);
+  const Sweep sweep(filter_, during);
   const LaserPoints points = pointsOf(scan, T_base_laser);
   LaserOdometryResult result;
   result.time_s = scan.time_s;
+  result.wheels = since.translation == RateSource::kWheels;
+  result.gyroscope = since.rotation == RateSource::kGyro;
   result.points = points.points.size();
   if (points.points.size() < kLeastPoints) {
     result.reason =
@@ -92,8 +111,8 @@ LaserOdometryResult LaserOdometry::process(const LaserScan& scan, const Eigen::I
   const bool coasts = result.state == LaserOdometryResult::State::kCoasting;
   coasting_ = coasts ? coasting_ + 1 : 0;
   coasting_s_ = coasts && last_s_ ? coasting_s_ + scan.time_s - *last_s_ : 0.0;
+  complete(before, result);
   last_s_ = scan.time_s;
-  complete(result);
   return result;
 }
 
@@ -139,14 +158,22 @@ Registration LaserOdometry::registerOrSearch(const LaserPoints& points, const Sw
   const bool vague =
       covariance(0, 0) + covariance(1, 1) > kVague_m * kVague_m || covariance(2, 2) > kVague_rad * kVague_rad;
   const Registration direct = registerScan(points, sweep, map_, prior, covariance, params_);
-  const bool doubtful = direct.residual_scale > kDoubtfulScale || !refusal(direct).empty();
-  if (!vague && !doubtful) return direct;
+  const bool doubtful = direct.residual_scale > kDoubtfulScale || direct.surprise > kDoubtfulSurprise ||
+                        !refusal(direct).empty();
+  if (!doubtful && (!vague || direct.inlier_share > 1.0 - kBetterShare)) return direct;
   std::vector<Eigen::Vector2d> points_base;
   sweep.undistort(points, prior.correction, points_base);
-  const Eigen::Vector3d start = searchShift(points_base, map_, prior, covariance.topLeftCorner<3, 3>());
-  const Registration searched = registerScan(points, sweep, map_, prior, covariance, params_, start);
-  const double better = doubtful ? kBetterShareInDoubt : kBetterShare;
-  return searched.inlier_share > direct.inlier_share + better ? searched : direct;
+  std::vector<Eigen::Vector3d> starts =
+      searchShifts(points_base, map_, prior, covariance.topLeftCorner<3, 3>());
+  starts.emplace_back(Eigen::Vector3d::Zero());  // the prior itself, but with the walls right beside it
+  Registration best = direct;
+  for (const Eigen::Vector3d& start : starts) {
+    const Registration found = registerScan(points, sweep, map_, prior, covariance, params_, start);
+    const bool allowed = doubtful || found.surprise <= direct.surprise ||
+                         found.inlier_share > direct.inlier_share + kBetterShare;
+    if (allowed && scoreOf(found) > scoreOf(best)) best = found;
+  }
+  return best;
 }
 
 std::string LaserOdometry::refusal(const Registration& registration) const {
@@ -188,10 +215,15 @@ void LaserOdometry::addKeyframe(const LaserPoints& points, const Sweep& sweep,
   filter_.mixIntoMap(share, first ? Eigen::Matrix3d::Zero() : registration.scan_covariance);
 }
 
-void LaserOdometry::complete(LaserOdometryResult& result) const {
-  result.T_odom_base = filter_.state().T_odom_base();
+void LaserOdometry::complete(const FilterMoment& before, LaserOdometryResult& result) {
+  const FilterMoment now = momentOf(filter_);
+  result.T_odom_base = now.T_odom_base;
   result.pose_covariance = filter_.poseCovariance();
-  result.twist = filter_.lastRate();
+  result.at_rest = rest_.observe(result.time_s, result.T_odom_base);
+  if (!last_s_) return;
+  const double duration_s = result.time_s - *last_s_;
+  result.twist = logPlanar(before.T_odom_base.inverse() * now.T_odom_base) / duration_s;
+  result.twist_covariance = motionCovariance(before, filter_.transition(), now) / (duration_s * duration_s);
 }
 
 }  // namespace stereo_nav::odometry

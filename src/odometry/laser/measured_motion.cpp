@@ -13,6 +13,9 @@ constexpr double kHistory_s = 30.0;
 /// Wheels count while their driver is silent, too; but in a longer gap the motion of a single scan is not
 /// known.
 constexpr double kMaxWheelGap_s = 10.0;
+/// No wheels go that fast, m/s or rad/s; stamps that jitter only feign it over a short way, m or rad.
+constexpr double kLeastJump = 1.5;
+constexpr double kFastest = 20.0;
 constexpr double kPiece_s = 0.025;
 constexpr int kMostPieces = 200;
 
@@ -21,8 +24,16 @@ constexpr int kMostPieces = 200;
 void MotionInputs::addWheels(double time_s, const Eigen::Isometry2d& T_wheels_base) {
   if (!std::isfinite(time_s) || !T_wheels_base.matrix().allFinite()) return;
   if (!wheels_.empty() && time_s <= wheels_.back().time_s) return;
+  if (!wheels_.empty() && jumps(wheels_.back(), {time_s, T_wheels_base})) wheels_.clear();
   wheels_.push_back({time_s, T_wheels_base});
   while (wheels_.front().time_s < time_s - kHistory_s) wheels_.pop_front();
+}
+
+/// Their pose was set, or they were started again.
+bool MotionInputs::jumps(const WheelPose& from, const WheelPose& to) {
+  const Eigen::Vector3d step = logPlanar(from.T_wheels_base.inverse() * to.T_wheels_base);
+  const double way = std::max(step.head<2>().norm(), std::abs(step.z()));
+  return way > kLeastJump && way > kFastest * (to.time_s - from.time_s);
 }
 
 void MotionInputs::addImu(const ImuSample& sample, const Eigen::Matrix3d& R_base_imu) {

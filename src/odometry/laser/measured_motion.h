@@ -29,7 +29,7 @@ struct MeasuredMotion {
 /// Wheels and gyroscope of the last seconds. Samples must come in order of time; others are left out.
 class MotionInputs {
  public:
-  /// Pose of the base by its wheels, in any fixed frame.
+  /// Pose of the base by its wheels, in any fixed frame. A jump begins a new one.
   void addWheels(double time_s, const Eigen::Isometry2d& T_wheels_base);
   /// Only its angular rate counts; an attitude stands in where the IMU gives no rates: magnetic fields bend a
   /// yaw, a gyroscope does not feel them.
@@ -47,6 +47,7 @@ class MotionInputs {
     double time_s;
     Eigen::Isometry2d T_wheels_base;
   };
+  static bool jumps(const WheelPose& from, const WheelPose& to);
   std::optional<Eigen::Isometry2d> wheelsAt(double time_s) const;
 
   std::deque<WheelPose> wheels_;

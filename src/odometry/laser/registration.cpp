@@ -16,9 +16,10 @@ constexpr double kConverged_rad = 2e-4;
 constexpr double kLossSigmas = 3.0;
 /// What no point of a scan is better than: surfaces are rough.
 constexpr double kRoughness_m = 0.004;
-/// Of a start that was searched for.
-constexpr double kStartSigma_m = 0.07;
-constexpr double kStartSigma_rad = 0.02;
+/// Of a start that was searched for, while lines are looked up: the finest ones, since coarser ones would
+/// pull it to other walls beside.
+constexpr double kStartSigma_m = 0.02;
+constexpr double kStartSigma_rad = 0.005;
 constexpr double kLeastVariance = 1e-12;
 
 /// How wrong the pose may be while lines are looked up.

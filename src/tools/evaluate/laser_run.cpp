@@ -6,6 +6,7 @@
 #include "core/angles.h"
 #include "core/planar_motion.h"
 #include "odometry/laser/laser_odometry.h"
+#include "odometry/laser/motion_covariance.h"
 #include "ros/laser_recording.h"
 #include "stereo_nav/core/parameters.h"
 #include "stereo_nav/ros/topics.h"
@@ -21,34 +22,18 @@ using odometry::Matrix9d;
 class LaserSteps {
  public:
   void add(const odometry::PoseFilter& filter) {
-    steps_.push_back({filter.state().T_odom_base(), filter.covariance(), filter.transition()});
+    steps_.push_back({odometry::momentOf(filter), filter.transition()});
   }
 
-  /// The error of the later pose less that of the earlier one, which moves along: with the nine errors x of
-  /// the filter, e = S x, of later = e_to - Phi e_from.
   Matrix6d operator()(std::size_t from, std::size_t to) const {
     Matrix9d carry = Matrix9d::Identity();
     for (std::size_t i = from + 1; i <= to; ++i) carry = (steps_[i].transition * carry).eval();
-    Eigen::Matrix<double, 3, 9> S = Eigen::Matrix<double, 3, 9>::Zero();
-    S.leftCols<3>().setIdentity();
-    S.middleCols<3>(3).setIdentity();
-    const Eigen::Vector2d way = steps_[to].T_odom_base.translation() - steps_[from].T_odom_base.translation();
-    Eigen::Matrix3d Phi = Eigen::Matrix3d::Identity();
-    Phi(0, 2) = -way.y();
-    Phi(1, 2) = way.x();
-    const Eigen::Matrix3d of_to = S * steps_[to].covariance * S.transpose();
-    const Eigen::Matrix3d of_from = Phi * S * steps_[from].covariance * S.transpose() * Phi.transpose();
-    const Eigen::Matrix3d shared = S * carry * steps_[from].covariance * S.transpose() * Phi.transpose();
-    const Eigen::Matrix3d in_odom = of_to + of_from - shared - shared.transpose();
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-    R.topLeftCorner<2, 2>() = steps_[to].T_odom_base.linear();
-    return spatialCovariance(R.transpose() * in_odom * R);
+    return spatialCovariance(odometry::motionCovariance(steps_[from].moment, carry, steps_[to].moment));
   }
 
  private:
   struct Step {
-    Eigen::Isometry2d T_odom_base;
-    Matrix9d covariance;
+    odometry::FilterMoment moment;
     Matrix9d transition;
   };
   std::vector<Step> steps_;

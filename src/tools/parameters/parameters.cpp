@@ -11,6 +11,7 @@
 #endif
 #include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
+#include "nodes/laser_odometry/laser_odometry_node_params.h"
 #ifdef STEREO_NAV_NAVIGATION
 #include "nodes/obstacle_grid/obstacle_grid_params.h"
 #endif
@@ -20,7 +21,6 @@
 #include "nodes/teleop/key_driver.h"
 #include "nodes/visual_odometry/visual_odometry_params.h"
 #include "nodes/wheel_odometry/wheel_odometry_node_params.h"
-#include "odometry/laser/laser_params.h"
 #include "ros/base_bridge_params.h"
 #include "ros/capture_setup.h"
 #include "ros/laser_bridge_params.h"
@@ -134,9 +134,10 @@ void printOthers() {
       "Its own, and then those of the odometry: `config/wheel.yaml` and files like it (`~config`), also read by "
       "`evaluate --method wheel` and `calibrate_wheels`. The wheels are the section `drive` of `~rig`.");
   printTable(nodes::WheelOdometryNodeParams());
-  printHeading("## Laser odometry",
-               "`config/laser_odometry.yaml` and files like it, read by `evaluate --method laser`.");
-  printTable(odometry::LaserParams());
+  printHeading("## `laser_odometry`, node and nodelet",
+               "Its own, and then those of the odometry: `config/laser_odometry.yaml` and files like it "
+               "(`~config`), also read by `evaluate --method laser`.");
+  printTable(nodes::LaserOdometryNodeParams());
 #ifdef STEREO_NAV_NAVIGATION
   printHeading("## Path planning", "`config/planner.yaml` and files like it, read by `plan`.");
   printTable(navigation::PlannerParams());

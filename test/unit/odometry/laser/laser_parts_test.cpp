@@ -113,7 +113,10 @@ TEST(CorrelativeSearch, findsAScanThatIsFarOff) {
   prior.p_odom = {0.5, -0.3};
   prior.yaw_rad = 0.3;
   const Eigen::Matrix3d vague = Eigen::Vector3d(0.25, 0.25, 0.04).asDiagonal();
-  const Eigen::Vector3d shift = searchShift(points, map, prior, vague);
+  const std::vector<Eigen::Vector3d> shifts = searchShifts(points, map, prior, vague);
+  ASSERT_FALSE(shifts.empty());
+  ASSERT_LE(shifts.size(), kSearchResults);
+  const Eigen::Vector3d shift = shifts.front();
   EXPECT_NEAR(shift.x(), -0.5, kSearchStep_m);
   EXPECT_NEAR(shift.y(), 0.3, kSearchStep_m);
   EXPECT_NEAR(shift.z(), -0.3, 2.0 * kSearchStep_rad);
