@@ -93,9 +93,7 @@ Matrix6d OdomCovariance::addMotion(const odometry::FrameResult& result,
 
 OdomCovariance::Motion OdomCovariance::motionOf(const odometry::FrameResult& result,
                                                 const Eigen::Isometry3d& T_previous_base) const {
-  const double bent_px = params_.distortion_sigma_px;
-  return {T_previous_base, inBase(result.motion_covariance + bent_px * bent_px * result.covariance_per_px2),
-          inBase(result.pose_noise), effects(result)};
+  return {T_previous_base, inBase(result.motion_covariance), inBase(result.pose_noise), effects(result)};
 }
 
 void OdomCovariance::add(const Motion& motion) {
@@ -160,18 +158,22 @@ OdomCovariance::Effects OdomCovariance::effects(const odometry::FrameResult& res
   const Eigen::Isometry3d& T_previous_current = result.T_previous_current;
   const Eigen::Vector3d way_m = T_previous_current.linear().transpose() * T_previous_current.translation();
   Effects effects = Effects::Zero();
-  effects.block<3, 1>(0, 0) = way_m;
-  effects.block<3, 1>(0, 1) = result.scale_per_px * way_m;
-  effects(2, 2) = way_m.z();  // depths are wrong by its share, what lies across the view is not
-  effects.block<3, 1>(3, 2) = logRotation(T_previous_current.linear());
-  effects.rightCols<3>() = (adjoint(T_previous_current.inverse()) - Matrix6d::Identity()).rightCols<3>();
+  effects.block<3, 1>(0, kBaseline) = way_m;
+  effects(2, kFocal) = way_m.z();  // depths are wrong by its share, what lies across the view is not
+  effects.block<3, 1>(3, kFocal) = logRotation(T_previous_current.linear());
+  effects.middleCols<3>(kMounting) =
+      (adjoint(T_previous_current.inverse()) - Matrix6d::Identity()).rightCols<3>();
+  effects.rightCols<odometry::CalibrationEffects::ColsAtCompileTime>() = result.calibration_effects;
   return adjoint_base_camera_ * effects;
 }
 
 Matrix6d OdomCovariance::shared(const Effects& effects) const {
   Eigen::Matrix<double, kShared, 1> sigmas;
-  sigmas << params_.baseline_sigma_share, params_.column_offset_sigma_px, params_.focal_sigma_share,
-      Eigen::Vector3d::Constant(params_.mounting_sigma_rad);
+  sigmas.setConstant(params_.distortion_sigma_px);
+  sigmas(kBaseline) = params_.baseline_sigma_share;
+  sigmas(kFocal) = params_.focal_sigma_share;
+  sigmas.segment<3>(kMounting).setConstant(params_.mounting_sigma_rad);
+  sigmas(kColumnOffset) = params_.column_offset_sigma_px;
   const Effects scaled = effects * sigmas.asDiagonal();
   return scaled * scaled.transpose();
 }

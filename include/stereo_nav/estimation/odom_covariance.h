@@ -27,10 +27,10 @@ struct UncertaintyParams {
 /// The covariances that the `odom` topic carries, in the order x y z, then rotation about x y z.
 ///
 /// The error of a pose has three parts. Each motion adds noise that is independent of that of all others
-/// (FrameResult::motion_covariance, and covariance_per_px2 for lenses that are not quite as calibrated),
-/// carried along by the adjoint (Sola et al., "A micro Lie theory", eq. 54). The newest pose has noise of its
-/// own (pose_noise). Errors of the calibration are the same in all motions: their effects add up, not their
-/// variances, so that they grow with the distance and not with its root.
+/// (FrameResult::motion_covariance), carried along by the adjoint (Sola et al., "A micro Lie theory", eq.
+/// 54). The newest pose has noise of its own (pose_noise). Errors of the calibration are the same in all
+/// motions: their effects add up, not their variances, so that they grow with the distance and not with its
+/// root.
 ///
 /// While no motion is measured (the gap), a coasting pose has the covariance that the odometry predicts;
 /// after that the velocity is unknown, the same one all the time: as large as `lost_speed_m_s` and the last
@@ -64,8 +64,10 @@ class OdomCovariance {
   Matrix6d unknownTwist() const;
 
  private:
-  /// Unit errors of the calibration: baseline, column offset, focal length, mounting about each axis.
-  static constexpr int kShared = 6;
+  /// Unit errors of the calibration: baseline, focal length, mounting about each axis, and those of
+  /// odometry::CalibrationEffects, of which the first is the column offset and the others are the lenses'.
+  enum { kBaseline, kFocal, kMounting, kColumnOffset = kMounting + 3 };
+  static constexpr int kShared = kColumnOffset + odometry::CalibrationEffects::ColsAtCompileTime;
   using Effects = Eigen::Matrix<double, 6, kShared>;
 
   /// A measured motion.

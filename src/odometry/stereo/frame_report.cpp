@@ -1,9 +1,7 @@
 #include "odometry/stereo/frame_report.h"
 
-#include <algorithm>
 #include <sstream>
 
-#include "core/statistics.h"
 #include "vision/pixel.h"
 
 namespace stereo_nav::odometry {
@@ -30,31 +28,6 @@ void reportTracks(const std::vector<Track>& tracks, const Eigen::Isometry3d& T_c
     if (report.fate == FeatureReport::Fate::kInlier) ++result.inliers;
     result.features.push_back(report);
   }
-}
-
-void reportSensitivity(const vision::StereoCalibration& calibration, const std::vector<Track>& tracks,
-                       const PoseEstimate& estimate, FrameResult& result) {
-  // Least squares over features whose flow is proportional to their disparity d: an offset of the disparities
-  // by 1 px scales the translation by sum(d) / sum(d^2).
-  double sum_px = 0.0, squares_px2 = 0.0;
-  std::vector<double> flow_px;
-  for (const Track& track : tracks) {
-    const double depth_m = (estimate.view.T_camera_world * track.p_world).z();
-    if (!track.inlier || depth_m <= 0.0) continue;
-    const double disparity_px = calibration.fx * calibration.baseline_m / depth_m;
-    sum_px += disparity_px;
-    squares_px2 += disparity_px * disparity_px;
-    flow_px.push_back((track.in_image.left_px - track.previous_px).norm());
-  }
-  if (flow_px.empty()) return;
-  result.scale_per_px = sum_px / squares_px2;
-  // What bends the image changes over a fifth of its width: all features within have the same error, and new
-  // ones once they have moved as far.
-  const double patch_px = 0.2 * calibration.width;
-  const double patches = calibration.width * calibration.height / (patch_px * patch_px);
-  const double shared = std::max(1.0, static_cast<double>(flow_px.size()) / patches);
-  const double renewed = std::min(1.0, upperMedian(flow_px) / patch_px);
-  result.covariance_per_px2 = 2.0 * renewed * shared / estimate.variance_px2 * estimate.covariance;
 }
 
 std::string tooFewLandmarks(std::size_t landmarks, int needed) {

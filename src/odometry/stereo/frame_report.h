@@ -12,10 +12,6 @@ namespace stereo_nav::odometry {
 void reportTracks(const std::vector<Track>& tracks, const Eigen::Isometry3d& T_camera_world,
                   FrameResult& result);
 
-/// Fills in what errors of the calibration would make of the motion, from the depths of the inliers.
-void reportSensitivity(const vision::StereoCalibration& calibration, const std::vector<Track>& tracks,
-                       const PoseEstimate& estimate, FrameResult& result);
-
 /// Why a frame is lost or a map could not begin.
 std::string tooFewLandmarks(std::size_t landmarks, int needed);
 std::string tooFewInliers(std::size_t inliers, std::size_t tracked, int needed);

@@ -39,9 +39,13 @@ std::uint64_t LocalMap::addLandmark(Landmark landmark, const vision::StereoObser
 }
 
 std::optional<Matrix6d> LocalMap::growth() const {
-  auto covariance = optimizer_.newestCovariance(frames_.size());
+  auto covariance = optimizer_.newestCovariance(frames_, 0);
   if (covariance) *covariance /= static_cast<double>(frames_.size() - 1);
   return covariance;
+}
+
+std::optional<Matrix6d> LocalMap::noise() const {
+  return optimizer_.newestCovariance(frames_, frames_.size() - 2);
 }
 
 void LocalMap::removeNewest() {

@@ -46,6 +46,9 @@ class LocalMap {
   /// What one keyframe adds to the uncertainty of the poses, for pixels of unit variance: the newest frame's
   /// covariance relative to the oldest one, shared among those between. Nothing where it is unknown.
   std::optional<Matrix6d> growth() const;
+  /// The newest frame's covariance relative to the last keyframe, for pixels of unit variance, with the
+  /// landmarks as uncertain as they are. Nothing where it is unknown.
+  std::optional<Matrix6d> noise() const;
 
   /// The current frame is no keyframe: it and its observations are removed.
   void removeNewest();

@@ -15,6 +15,7 @@ StereoOdometry::StereoOdometry(const StereoParams& params, const vision::StereoC
       calibration_(calibration),
       R_camera_imu_(R_camera_imu),
       estimator_(params.motion, calibration),
+      effects_(params.motion.loss_px, calibration),
       shutter_(calibration),
       motion_(params.motion_model, params.imu, R_camera_imu),
       follower_(params.tracking, params.pyramid_levels),
@@ -223,28 +224,26 @@ void StereoOdometry::updateMap(const StereoImages& images, const MotionPrior& pr
   matcher_.learnRows(view, follower_.tracks());
   clock.lap("window");
 
-  const Eigen::Isometry3d T_current_previous = view.T_camera_world * prior.T_previous_world.inverse();
+  result.T_previous_current = prior.T_previous_world * view.T_camera_world.inverse();
   if (prior.R_current_previous) {
     result.rotation_disagreement_rad =
-        logRotation(*prior.R_current_previous * T_current_previous.linear().transpose()).norm();
+        logRotation(*prior.R_current_previous * result.T_previous_current.linear()).norm();
   }
   motion_.update(images.times, prior, view, estimate.covariance);
   T_camera_world_ = view.T_camera_world;
   if (!isConfirmed()) ++confirmations_;
   result.state = isConfirmed() ? State::kTracking : State::kInitialising;
-  if (isConfirmed()) {
-    motion_.trustPrevious();
-  } else {
-    result.reason = unconfirmed();
-  }
-  result.T_previous_current = T_current_previous.inverse();
-  result.pose_noise = estimate.covariance;
-  reportSensitivity(calibration_, follower_.tracks(), estimate, result);
+  if (isConfirmed()) motion_.trustPrevious();
+  if (!isConfirmed()) result.reason = unconfirmed();
+  const double variance_px2 = kDependence * estimate.variance_px2;
+  result.pose_noise = variance_px2 * map_.noise().value_or(estimate.covariance / estimate.variance_px2);
+  result.calibration_effects = effects_.of(follower_.tracks(), estimate, result.T_previous_current);
   result.reprojection_error_px = estimate.rms_px;
   lost_frames_ = 0;
   previous_is_keyframe_ = needsKeyframe(params_.keyframes, follower_.tracks(), keyframe_features_);
   if (previous_is_keyframe_) {
-    if (const auto growth = map_.growth()) result.motion_covariance = estimate.variance_px2 * *growth;
+    result.motion_covariance =
+        variance_px2 * map_.growth().value_or(Matrix6d::Zero()) + kDependence * estimate.covariance;
     makeKeyframe(images, result);
   } else {
     map_.removeNewest();

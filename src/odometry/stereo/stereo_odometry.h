@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "odometry/stereo/calibration_effects.h"
 #include "odometry/stereo/consensus.h"
 #include "odometry/stereo/feature_follower.h"
 #include "odometry/stereo/landmark_detector.h"
@@ -76,6 +77,7 @@ class StereoOdometry : public Odometry {
   vision::StereoCalibration calibration_;
   Eigen::Matrix3d R_camera_imu_;
   PoseEstimator estimator_;
+  CalibrationEffectsModel effects_;
   vision::RollingShutter shutter_;         ///< of the current frame
   Vector6d row_twist_ = Vector6d::Zero();  ///< motion used to bring the rows of the current frame to one time
 
@@ -85,6 +87,8 @@ class StereoOdometry : public Odometry {
   LandmarkDetector detector_;
   LocalMap map_;
 
+  /// Factor of the covariances: the errors of a feature add up from view to view (docs/method.md).
+  static constexpr double kDependence = 3.0;
   static constexpr int kConfirmations = 2;  ///< frames after the first one
   int confirmations_ = 0;                   ///< frames that agreed with the map in use
   Eigen::Isometry3d T_camera_world_ = Eigen::Isometry3d::Identity();  ///< of the newest frame, as reported

@@ -168,13 +168,20 @@ bool WindowOptimizer::optimise(std::vector<WindowFrame>& window, std::vector<Lan
   return true;
 }
 
-std::optional<Matrix6d> WindowOptimizer::newestCovariance(std::size_t frames) const {
-  const auto newest = static_cast<Eigen::Index>(6 * (frames - 2));
-  if (frames < 2 || information_.rows() < newest + 6) return std::nullopt;
+std::optional<Matrix6d> WindowOptimizer::newestCovariance(const std::vector<WindowFrame>& window,
+                                                          std::size_t since) const {
+  const auto newest = static_cast<Eigen::Index>(6 * (window.size() - 2));
+  if (window.size() < 2 || information_.rows() < newest + 6) return std::nullopt;
+  // T_newest_since changes by the one perturbation and, carried there, against the other.
+  Eigen::MatrixXd by_motion = Eigen::MatrixXd::Zero(information_.rows(), 6);
+  by_motion.middleRows<6>(newest).setIdentity();
+  if (since > 0) {
+    const Eigen::Isometry3d T_newest_since =
+        window.back().view.T_camera_world * window[since].view.T_camera_world.inverse();
+    by_motion.middleRows<6>(poseAt(static_cast<int>(since))) = -adjoint(T_newest_since).transpose();
+  }
   const Eigen::LDLT<Eigen::MatrixXd> solver(information_);
-  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(information_.rows(), 6);
-  unit.middleRows<6>(newest).setIdentity();
-  const Matrix6d covariance = solver.solve(unit).middleRows<6>(newest);
+  const Matrix6d covariance = by_motion.transpose() * solver.solve(by_motion);
   if (solver.info() != Eigen::Success || !covariance.allFinite()) return std::nullopt;
   return Matrix6d(0.5 * (covariance + covariance.transpose()));
 }

@@ -57,10 +57,10 @@ class WindowOptimizer {
   /// they are, if the observations do not determine them.
   bool optimise(std::vector<WindowFrame>& window, std::vector<Landmark>& landmarks);
 
-  /// Covariance of the newest frame's pose relative to the oldest one, as the last optimise() found it, for
-  /// pixels of unit variance: of the left perturbation of T_camera_world, m, rad. Nothing where it is
-  /// unknown.
-  std::optional<Matrix6d> newestCovariance(std::size_t frames) const;
+  /// Covariance of the newest frame's pose relative to the frame `since` of the window, as the last
+  /// optimise() found it, for pixels of unit variance: of the left perturbation of T_newest_since, m, rad.
+  /// Nothing where it is unknown.
+  std::optional<Matrix6d> newestCovariance(const std::vector<WindowFrame>& window, std::size_t since) const;
 
  private:
   struct Elimination {

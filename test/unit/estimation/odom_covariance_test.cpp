@@ -106,22 +106,23 @@ TEST_F(OdomCovarianceTest, AColumnOffsetScalesFarScenesMore) {
   params.column_offset_sigma_px = 0.2;
   OdomCovariance covariance = started(params);
   odometry::FrameResult near = ahead(5.0), far = ahead(5.0);
-  near.scale_per_px = 1.0 / 50.0;
-  far.scale_per_px = 1.0 / 10.0;
+  near.calibration_effects(0, 0) = 5.0 / 50.0;
+  far.calibration_effects(0, 0) = 5.0 / 10.0;
   add(covariance, near);
   EXPECT_NEAR(covariance.pose(kLevel)(0, 0), std::pow(5.0 * 0.2 / 50.0, 2), 1e-9);
   add(covariance, far);
   EXPECT_NEAR(covariance.pose(kLevel)(0, 0), std::pow(5.0 * 0.2 / 50.0 + 5.0 * 0.2 / 10.0, 2), 1e-9);
 }
 
-TEST_F(OdomCovarianceTest, BentImagesAddWhatTheFrameSays) {
+TEST_F(OdomCovarianceTest, LensErrorsAddUpWithTheMotionsTheyAreSeenIn) {
   UncertaintyParams params = perfectCalibration();
   params.distortion_sigma_px = 0.5;
   OdomCovariance covariance = started(params);
   odometry::FrameResult result = ahead(0.0);
-  result.covariance_per_px2(3, 3) = 0.04;
+  result.calibration_effects(3, 1) = 0.03;
+  result.calibration_effects(3, 6) = 0.04;
   for (int i = 0; i < 10; ++i) add(covariance, result);
-  EXPECT_NEAR(covariance.pose(kLevel)(3, 3), 10 * 0.25 * 0.04, 1e-9);
+  EXPECT_NEAR(covariance.pose(kLevel)(3, 3), std::pow(10 * 0.5 * 0.05, 2), 1e-9);
 }
 
 TEST_F(OdomCovarianceTest, ACameraThatLooksAsideDrivesAside) {

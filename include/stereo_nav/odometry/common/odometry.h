@@ -66,6 +66,12 @@ struct StageTime {
   double milliseconds;  ///< wall-clock time
 };
 
+/// What errors of the calibration do to a motion, all frames alike: how much further or more turned it comes
+/// out, in the current camera frame (m, rad), for each unit of: the right camera's columns, offset by 1 px;
+/// the radial and the two tangential errors of the left lens, then of the right one, whose RMS over the image
+/// is 1 px together.
+using CalibrationEffects = Eigen::Matrix<double, 6, 7>;
+
 /// Everything that one frame yields. Poses are of the left optical frame, relative to its pose in the first
 /// frame.
 struct FrameResult {
@@ -82,10 +88,8 @@ struct FrameResult {
   Matrix6d motion_covariance = Matrix6d::Zero();
   /// Noise of this frame's pose alone, which later frames do not share; current camera frame, as above.
   Matrix6d pose_noise = Matrix6d::Zero();
-  /// By how much an offset of the right camera's columns by 1 px scales the motion; 0 where unknown.
-  double scale_per_px = 0.0;
-  /// What lenses that bend the image by 1 px (one sigma) beyond their calibration add to motion_covariance.
-  Matrix6d covariance_per_px2 = Matrix6d::Zero();
+  /// Of T_previous_current; zero where unknown.
+  CalibrationEffects calibration_effects = CalibrationEffects::Zero();
   /// A map began with this frame, at a pose that was not measured; that of the first frame is by definition.
   bool new_map = false;
   bool turn_is_measured = false;          ///< while kCoasting or kLost: the rotation is the IMU's
