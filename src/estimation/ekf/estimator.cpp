@@ -31,6 +31,14 @@ double noiseFactor(const ChannelMemory& memory, double time_s) {
   return time_s < memory.doubt_until_s ? std::max(memory.noise_factor, memory.doubt_factor) : memory.noise_factor;
 }
 
+/// A motion that is refused may be the right one: the pose may be off by what it would have been moved.
+void addDoubt(const StateLayout& layout, const Innovation& innovation, State& state) {
+  Eigen::VectorXd off = Eigen::VectorXd::Zero(layout.rows());
+  for (std::size_t i = 0; i < innovation.fields.size(); ++i)
+    off[layout.at(error_row::kPosition + innovation.fields[i])] = innovation.residual[static_cast<Eigen::Index>(i)];
+  state.covariance += off * off.transpose();
+}
+
 /// What an odometry says of velocities beyond what the filter expects.
 void addOpinionOfMotion(const Measurement& measurement, const OdometryMotion& motion,
                         const Eigen::Isometry3d& corrected, const EstimatorMemory& memory, ChannelMemory& channel) {
@@ -182,8 +190,9 @@ Outcome Estimator::applyMotion(const Measurement& measurement, EstimatorMemory& 
   Vector6d reading;
   reading << Eigen::Vector3d::Constant(std::pow(channel.reading_sigma_m, 2)),
       Eigen::Vector3d::Constant(std::pow(channel.reading_sigma_rad, 2));
-  const Outcome outcome = takeIn(
-      measurement, observeAnchor(layout_, memory.state, anchor, measurement.fields, reading), memory);
+  const Innovation innovation = observeAnchor(layout_, memory.state, anchor, measurement.fields, reading);
+  const Outcome outcome = takeIn(measurement, innovation, memory);
+  if (outcome.kind == Outcome::Kind::kRefused) addDoubt(layout_, innovation, memory.state);
   const bool held = outcome.kind == Outcome::Kind::kUsed;
   const bool all = measurement.fields.size() == 6 || (layout_.planar() && outcome.fields == 3);
   if (!held) {

@@ -24,7 +24,7 @@ struct View {
 };
 
 View viewOf(int index, const Channel& channel, const Opinion& opinion, std::size_t field) {
-  View view{index, opinion.sum / opinion.count, opinion.variance_sum / std::pow(opinion.count, 2)};
+  View view{index, static_cast<double>(opinion.sum) / opinion.count, opinion.variance_sum / std::pow(opinion.count, 2)};
   if (opinion.duration_s <= 0.0F) return view;
   // Noise of single poses cancels between neighbouring motions: those of the first and the last one count.
   const double reading = field < 3 ? channel.reading_sigma_m : channel.reading_sigma_rad;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kLeastSigma_m = 1e-4;
 constexpr double kLeastSigma_rad = 1e-5;
-constexpr double kUnknownVariance = 1e5;
+constexpr double kUselessVariance = 1e5;
 
 /// From the axes of the odometry's frame to those of base_link.
 Matrix6d inBaseAxes(const Eigen::Isometry3d& T_odometry_base, const Matrix6d& covariance) {
@@ -47,7 +47,7 @@ Matrix6d withoutUnknown(const Matrix6d& covariance, const std::vector<int>& fiel
 bool usable(const Matrix6d& covariance, const std::vector<int>& fields) {
   for (const int field : fields) {
     const double variance = covariance(field, field);
-    if (!(variance > 0.0 && variance < kUnknownVariance)) return false;
+    if (!(variance > 0.0 && variance < kUselessVariance)) return false;
   }
   return covariance.allFinite();
 }

@@ -34,7 +34,6 @@ Consistency consistencyOf(SceneOptions options, unsigned runs) {
 TEST(FusionConsistency, CovariancesAreAsLargeAsTheErrors) {
   SceneOptions options;
   const Consistency consistency = consistencyOf(options, 30);
-  std::printf("NEES %.2f inside %.3f rmse %.4f m %.5f rad\n", consistency.mean, consistency.inside_95, consistency.rmse_m, consistency.rmse_rad);
   EXPECT_GT(consistency.mean, 2.0);
   EXPECT_LT(consistency.mean, 4.5);
   EXPECT_GT(consistency.inside_95, 0.85);
@@ -44,7 +43,6 @@ TEST(FusionConsistency, WithWheelsAndGyroscopeAndLaserAlone) {
   SceneOptions options;
   options.stereo = false;
   const Consistency consistency = consistencyOf(options, 30);
-  std::printf("NEES %.2f inside %.3f rmse %.4f m %.5f rad\n", consistency.mean, consistency.inside_95, consistency.rmse_m, consistency.rmse_rad);
   EXPECT_GT(consistency.mean, 2.0);
   EXPECT_LT(consistency.mean, 4.5);
   EXPECT_GT(consistency.inside_95, 0.85);
@@ -54,7 +52,6 @@ TEST(FusionConsistency, PositionsFromOutsideKeepTheErrorBounded) {
   SceneOptions options;
   options.gnss = true;
   const Consistency consistency = consistencyOf(options, 10);
-  std::printf("NEES %.2f inside %.3f rmse %.4f m %.5f rad\n", consistency.mean, consistency.inside_95, consistency.rmse_m, consistency.rmse_rad);
   EXPECT_GT(consistency.mean, 1.5);
   EXPECT_LT(consistency.mean, 5.0);
 }

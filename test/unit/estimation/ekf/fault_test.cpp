@@ -67,8 +67,6 @@ class FusionFault : public testing::Test {
     // Three times what these sensors' errors grow by in five seconds without a fault (largest of 20 seeds: 0.022 m, 0.006 rad).
     EXPECT_LE(harm.growth_m, 0.06);
     EXPECT_LE(harm.growth_rad, 0.02);
-    std::printf("   step %.4f nees %.1f growth %.4f m %.4f rad\n", harm.largest_step_m, harm.largest_nees, harm.growth_m, harm.growth_rad);
-    for (const auto& text : result.announcements) std::printf("   - %s\n", text.c_str());
   }
 
   static bool said(const SceneResult& result, const std::string& text) {
@@ -98,7 +96,7 @@ TEST_F(FusionFault, ValuesThatAreNoNumbers) {
 }
 
 TEST_F(FusionFault, VariancesThatCannotBeRight) {
-  for (const double bad : {kNaN, kInfinity, 0.0, 1e308, -5.0}) {
+  for (const double bad : {kNaN, kInfinity, 0.0, 1e308, -0.5}) {
     for (const int channel : {channel::kGyro, channel::kLaser, channel::kWheels}) {
       const SceneResult result = with(channel, 5.0, [bad](Measurement& m, double&) {
         m.covariance.setConstant(bad);
