@@ -36,7 +36,9 @@ Vector6d toTwist(const geometry_msgs::Twist& twist) {
   return vector;
 }
 
-Eigen::Vector3d toVector(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
+Eigen::Vector3d toVector(const geometry_msgs::Vector3& v) {
+  return {v.x, v.y, v.z};
+}
 
 /// Where both parts have the same covariance of three fields.
 Matrix6d placed(const Eigen::Matrix3d& covariance, int first) {
@@ -48,7 +50,8 @@ Matrix6d placed(const Eigen::Matrix3d& covariance, int first) {
 /// Variances that stand for "unknown" or "not stated" must survive a rotation.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& R, const Eigen::Matrix3d& covariance) {
   const Eigen::Vector3d variances = covariance.diagonal();
-  if ((variances.array() - variances[0]).abs().maxCoeff() == 0.0 && covariance.isDiagonal(0.0)) return covariance;
+  if ((variances.array() - variances[0]).abs().maxCoeff() == 0.0 && covariance.isDiagonal(0.0))
+    return covariance;
   return R * covariance * R.transpose();
 }
 
@@ -93,8 +96,9 @@ void FusionMessages::addPose(std::size_t sensor, double time_s, const Eigen::Iso
   measurements.push_back(measurement);
 }
 
-void FusionMessages::addTwist(std::size_t sensor, double time_s, const std::string& frame, const Vector6d& twist,
-                              const Matrix6d& covariance, std::vector<Measurement>& measurements) {
+void FusionMessages::addTwist(std::size_t sensor, double time_s, const std::string& frame,
+                              const Vector6d& twist, const Matrix6d& covariance,
+                              std::vector<Measurement>& measurements) {
   const SensorChannels& channels = setup_.sensors[sensor];
   if (channels.twist < 0) return;
   const auto T_base_body = T_base(frame);
@@ -125,15 +129,18 @@ std::vector<Measurement> FusionMessages::convert(std::size_t sensor, const nav_m
   const Eigen::Isometry3d T_world_base =
       toPose(message.pose.pose.position, message.pose.pose.orientation) * T_base_body->inverse();
   const auto twist_covariance = toMatrix<6>(message.twist.covariance);
-  addPose(sensor, time_s, T_world_base, toMatrix<6>(message.pose.covariance), Matrix6d(twist_covariance), measurements);
-  addTwist(sensor, time_s, message.child_frame_id, toTwist(message.twist.twist), twist_covariance, measurements);
+  addPose(sensor, time_s, T_world_base, toMatrix<6>(message.pose.covariance), Matrix6d(twist_covariance),
+          measurements);
+  addTwist(sensor, time_s, message.child_frame_id, toTwist(message.twist.twist), twist_covariance,
+           measurements);
   return measurements;
 }
 
 std::vector<Measurement> FusionMessages::convert(std::size_t sensor,
                                                  const geometry_msgs::PoseWithCovarianceStamped& message) {
   std::vector<Measurement> measurements;
-  addPose(sensor, message.header.stamp.toSec(), toPose(message.pose.pose.position, message.pose.pose.orientation),
+  addPose(sensor, message.header.stamp.toSec(),
+          toPose(message.pose.pose.position, message.pose.pose.orientation),
           toMatrix<6>(message.pose.covariance), std::nullopt, measurements);
   return measurements;
 }
@@ -156,7 +163,8 @@ std::vector<Measurement> FusionMessages::convert(std::size_t sensor, const senso
   if (channels.pose >= 0 && message.orientation_covariance[0] != -1.0) {
     Eigen::Isometry3d T = toPose(geometry_msgs::Point(), message.orientation);
     T.linear() = (T.linear() * R.transpose()).eval();
-    addPose(sensor, time_s, T, placed(toMatrix<3>(message.orientation_covariance), 3), std::nullopt, measurements);
+    addPose(sensor, time_s, T, placed(toMatrix<3>(message.orientation_covariance), 3), std::nullopt,
+            measurements);
   }
   Measurement measurement;
   measurement.time_s = time_s;
@@ -196,8 +204,8 @@ std::vector<Measurement> FusionMessages::convert(std::size_t sensor, const senso
   T.translation() << wrapRadians((fix[1] - first[1]) * kRadPerDeg) * (kRadius_m / w + first[2]) *
                          std::cos(first[0] * kRadPerDeg),
       (fix[0] - first[0]) * kRadPerDeg * (meridian_m + first[2]), fix[2] - first[2];
-  addPose(sensor, message.header.stamp.toSec(), T, placed(toMatrix<3>(message.position_covariance), 0), std::nullopt,
-          measurements);
+  addPose(sensor, message.header.stamp.toSec(), T, placed(toMatrix<3>(message.position_covariance), 0),
+          std::nullopt, measurements);
   return measurements;
 }
 

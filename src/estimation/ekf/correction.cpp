@@ -21,8 +21,7 @@ bool correct(const StateLayout& layout, const Innovation& innovation, State& sta
   const Eigen::MatrixXd S = innovation.H * state.covariance * innovation.H.transpose() + innovation.noise;
   const Eigen::LLT<Eigen::MatrixXd> cholesky(S);
   if (cholesky.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd K =
-      cholesky.solve(innovation.H * state.covariance.transpose()).transpose();
+  const Eigen::MatrixXd K = cholesky.solve(innovation.H * state.covariance.transpose()).transpose();
   const Eigen::VectorXd shift = K * innovation.residual;
   Eigen::MatrixXd P = state.covariance - K * (innovation.H * state.covariance);
   P -= (P * innovation.H.transpose()).eval() * K.transpose();

@@ -16,7 +16,8 @@ constexpr double kAside_s = 1.0;
 
 const std::vector<int> kAllFields = {0, 1, 2, 3, 4, 5};
 
-void addOpinion(ChannelMemory& memory, long bin, int field, double residual, double variance, double duration_s) {
+void addOpinion(ChannelMemory& memory, long bin, int field, double residual, double variance,
+                double duration_s) {
   Opinion opinion;
   opinion.sum = static_cast<float>(residual);
   opinion.variance_sum = static_cast<float>(variance);
@@ -25,23 +26,28 @@ void addOpinion(ChannelMemory& memory, long bin, int field, double residual, dou
   memory.opinions.bin(bin)[static_cast<std::size_t>(field)].add(opinion);
 }
 
-long binOf(double time_s) { return std::lround(std::floor(time_s / Opinions::kBin_s)); }
+long binOf(double time_s) {
+  return std::lround(std::floor(time_s / Opinions::kBin_s));
+}
 
 double noiseFactor(const ChannelMemory& memory, double time_s) {
-  return time_s < memory.doubt_until_s ? std::max(memory.noise_factor, memory.doubt_factor) : memory.noise_factor;
+  return time_s < memory.doubt_until_s ? std::max(memory.noise_factor, memory.doubt_factor)
+                                       : memory.noise_factor;
 }
 
 /// A motion that is refused may be the right one: the pose may be off by what it would have been moved.
 void addDoubt(const StateLayout& layout, const Innovation& innovation, State& state) {
   Eigen::VectorXd off = Eigen::VectorXd::Zero(layout.rows());
   for (std::size_t i = 0; i < innovation.fields.size(); ++i)
-    off[layout.at(error_row::kPosition + innovation.fields[i])] = innovation.residual[static_cast<Eigen::Index>(i)];
+    off[layout.at(error_row::kPosition + innovation.fields[i])] =
+        innovation.residual[static_cast<Eigen::Index>(i)];
   state.covariance += off * off.transpose();
 }
 
 /// What an odometry says of velocities beyond what the filter expects.
 void addOpinionOfMotion(const Measurement& measurement, const OdometryMotion& motion,
-                        const Eigen::Isometry3d& corrected, const EstimatorMemory& memory, ChannelMemory& channel) {
+                        const Eigen::Isometry3d& corrected, const EstimatorMemory& memory,
+                        ChannelMemory& channel) {
   if (motion.duration_s > Opinions::kBins * Opinions::kBin_s || motion.duration_s <= 0.0) return;
   const Vector6d difference =
       logMotion(corrected) - logMotion(channel.T_start_reckoned.inverse() * memory.T_start_reckoned);
@@ -88,10 +94,10 @@ EstimatorMemory Estimator::initial(double time_s) const {
   if (!params_.initial_state) return memory;
   const auto& start = *params_.initial_state;
   state.T_world_base.translation() = start.head<3>();
-  state.T_world_base.linear() =
-      (Eigen::AngleAxisd(start[5], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(start[4], Eigen::Vector3d::UnitY()) *
-       Eigen::AngleAxisd(start[3], Eigen::Vector3d::UnitX()))
-          .toRotationMatrix();
+  state.T_world_base.linear() = (Eigen::AngleAxisd(start[5], Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(start[4], Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(start[3], Eigen::Vector3d::UnitX()))
+                                    .toRotationMatrix();
   state.velocity = start.segment<3>(6);
   state.rate = start.segment<3>(9);
   state.acceleration = start.segment<3>(12);
@@ -109,8 +115,8 @@ Outcome Estimator::apply(const Measurement& measurement, EstimatorMemory& memory
   const double interval_s = measurement.time_s - channel.newest_s;
   channel.newest_s = measurement.time_s;
   const Vector6d twist = twistOf(measurement, memory.state, channel);
-  Outcome outcome = measurement.kind == Kind::kMotion ? applyMotion(measurement, memory)
-                                                      : applyDirect(measurement, memory);
+  Outcome outcome =
+      measurement.kind == Kind::kMotion ? applyMotion(measurement, memory) : applyDirect(measurement, memory);
   outcome.verdict = std::move(verdict);
   if (!params_.zero_velocity_updates) return outcome;
   smoothTwist(twist, interval_s, channel);
@@ -132,7 +138,8 @@ Verdict Estimator::voteWhenDue(double time_s, EstimatorMemory& memory) const {
   return verdict;
 }
 
-Outcome Estimator::takeIn(const Measurement& measurement, Innovation innovation, EstimatorMemory& memory) const {
+Outcome Estimator::takeIn(const Measurement& measurement, Innovation innovation,
+                          EstimatorMemory& memory) const {
   const auto index = static_cast<std::size_t>(measurement.channel);
   ChannelMemory& channel = memory.channels[index];
   Outcome outcome;
@@ -185,8 +192,8 @@ Outcome Estimator::applyMotion(const Measurement& measurement, EstimatorMemory& 
   const Eigen::Isometry3d corrected =
       channel.wheels ? scaled(motion.motion, memory.state.wheel_scale) : motion.motion;
   addOpinionOfMotion(measurement, motion, corrected, memory, remembered);
-  moveAnchor(layout_, anchor, motion.motion, noiseFactor(remembered, measurement.time_s) * motion.covariance, channel.wheels,
-             memory.state);
+  moveAnchor(layout_, anchor, motion.motion, noiseFactor(remembered, measurement.time_s) * motion.covariance,
+             channel.wheels, memory.state);
   Vector6d reading;
   reading << Eigen::Vector3d::Constant(std::pow(channel.reading_sigma_m, 2)),
       Eigen::Vector3d::Constant(std::pow(channel.reading_sigma_rad, 2));
@@ -240,7 +247,8 @@ void Estimator::openUnknownPose(const Measurement& measurement, EstimatorMemory&
   added.bottomRightCorner<3, 3>() = R.transpose() * opened.tail<3>().asDiagonal() * R;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
-      if (layout_.at(i) >= 0 && layout_.at(j) >= 0) memory.state.covariance(layout_.at(i), layout_.at(j)) += added(i, j);
+      if (layout_.at(i) >= 0 && layout_.at(j) >= 0)
+        memory.state.covariance(layout_.at(i), layout_.at(j)) += added(i, j);
     }
   }
   for (ChannelMemory& channel : memory.channels) channel.anchored = false;

@@ -33,9 +33,9 @@ struct Outcome {
   Verdict verdict;           ///< of the window that it has ended
 };
 
-/// The filter without its history: an extended Kalman filter with the error on the manifold (Sola 2017, "Quaternion
-/// kinematics for the error-state Kalman filter"), odometries as motions of cloned poses (Roumeliotis and Burdick 2002,
-/// "Stochastic cloning").
+/// The filter without its history: an extended Kalman filter with the error on the manifold (Sola 2017,
+/// "Quaternion kinematics for the error-state Kalman filter"), odometries as motions of cloned poses
+/// (Roumeliotis and Burdick 2002, "Stochastic cloning").
 class Estimator {
  public:
   Estimator(const FilterParams& params, const StateParts& parts, std::vector<Channel> channels);
@@ -49,7 +49,8 @@ class Estimator {
   /// Moves `memory` on to the measurement, which must not be older, and takes it in.
   Outcome apply(const Measurement& measurement, EstimatorMemory& memory) const;
   /// Sets the pose with its covariance (axes of the world); the odometries go on from there.
-  void setPose(const Eigen::Isometry3d& T_world_base, const Matrix6d& covariance, EstimatorMemory& memory) const;
+  void setPose(const Eigen::Isometry3d& T_world_base, const Matrix6d& covariance,
+               EstimatorMemory& memory) const;
 
  private:
   Verdict voteWhenDue(double time_s, EstimatorMemory& memory) const;

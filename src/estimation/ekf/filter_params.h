@@ -20,13 +20,13 @@ struct FilterParams {
   double wheel_scale_sigma = 0.1;
   double acceleration_noise_m_s2 = 0.7;
   double turn_acceleration_noise_rad_s2 = 1.0;
-  double jerk_noise_m_s3 = 3.0;
+  double jerk_noise_m_s3 = 10.0;
   double gyro_bias_walk_rad_s2 = 2e-5;
   double accelerometer_bias_walk_m_s3 = 1e-3;
   double wheel_scale_walk = 3e-4;
   DefaultSigmas defaults;
-  /// Variances a second and at the start of the fifteen parts x y z, roll pitch yaw, their rates, accelerations,
-  /// where the file holds robot_localization's matrices.
+  /// Variances a second and at the start of the fifteen parts x y z, roll pitch yaw, their rates,
+  /// accelerations, where the file holds robot_localization's matrices.
   std::optional<Eigen::Matrix<double, 15, 1>> process_noise;
   std::optional<Eigen::Matrix<double, 15, 1>> initial_variance;
   std::optional<Eigen::Matrix<double, 15, 1>> initial_state;

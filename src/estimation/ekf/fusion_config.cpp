@@ -22,7 +22,8 @@ struct WithoutEqual {
 const std::map<std::string, WithoutEqual>& withoutEqual() {
   static const char* const kCommands =
       "commands are no measurements: the filter predicts by velocities and their noise (acceleration_noise)";
-  static const char* const kMatrices = "the noise follows from what the sensors state and from their innovations";
+  static const char* const kMatrices =
+      "the noise follows from what the sensors state and from their innovations";
   static const std::map<std::string, WithoutEqual> kNames = {
       {"use_control", {kCommands, "false"}},
       {"stamped_control", {kCommands, "false"}},
@@ -73,8 +74,8 @@ Vector15d readDiagonal(const YAML::Node& node, const std::string& name, const st
     for (std::size_t j = 0; j < 15; ++j) beside = beside || (i != j && numbers[15 * i + j] != 0.0);
     diagonal[static_cast<Eigen::Index>(i)] = numbers[16 * i];
     if (!(numbers[16 * i] >= 0.0 && numbers[16 * i] < 1e12))
-      throw ParameterError(fmt::format("{}: {} has the variance {:g} in row {}; variances are 0 or larger", source, name,
-                                       numbers[16 * i], i + 1));
+      throw ParameterError(fmt::format("{}: {} has the variance {:g} in row {}; variances are 0 or larger",
+                                       source, name, numbers[16 * i], i + 1));
   }
   if (beside) notes.push_back(name + ": only the diagonal is used");
   return diagonal;
@@ -83,8 +84,8 @@ Vector15d readDiagonal(const YAML::Node& node, const std::string& name, const st
 std::array<bool, 15> readUse(const YAML::Node& node, const std::string& name, const std::string& source) {
   std::array<bool, 15> use{};
   if (!node.IsSequence() || node.size() != use.size())
-    throw ParameterError(fmt::format("{}: {} must be a list of 15 times true or false, it has {}", source, name,
-                                     node.IsSequence() ? node.size() : 0));
+    throw ParameterError(fmt::format("{}: {} must be a list of 15 times true or false, it has {}", source,
+                                     name, node.IsSequence() ? node.size() : 0));
   try {
     for (std::size_t i = 0; i < use.size(); ++i) use[i] = node[i].as<bool>();
   } catch (const YAML::Exception&) {
@@ -145,13 +146,15 @@ class FileReader {
     sensor.name = name;
     sensor.type = typeOf(name.substr(0, name.find_first_of("0123456789")));
     if (values.count("") == 0)
-      throw ParameterError(fmt::format("{}: {} names no topic; there are parameters {}_*, but no line `{}: TOPIC`",
-                                       source_, name, name, name));
+      throw ParameterError(
+          fmt::format("{}: {} names no topic; there are parameters {}_*, but no line `{}: TOPIC`", source_,
+                      name, name, name));
     sensor.topic = values[""].as<std::string>("");
     if (sensor.type == SensorType::kFix) {
       sensor.use = {true, true, !config_.params.two_d_mode};
     } else if (values.count("config") == 0) {
-      throw ParameterError(fmt::format("{}: {}_config is missing, the list of what {} is used for", source_, name, name));
+      throw ParameterError(
+          fmt::format("{}: {}_config is missing, the list of what {} is used for", source_, name, name));
     }
     if (values.count("config") > 0) sensor.use = readUse(values["config"], name + "_config", source_);
     YAML::Node rest(YAML::NodeType::Map);
@@ -173,7 +176,8 @@ class FileReader {
   void leaveOut(SensorConfig& sensor, std::size_t from, std::size_t to, const char* what) {
     if (!uses(sensor, from, to)) return;
     for (std::size_t i = from; i < to; ++i) sensor.use[i] = false;
-    config_.notes.push_back(fmt::format("{}_config asks for {}, which its messages do not hold", sensor.name, what));
+    config_.notes.push_back(
+        fmt::format("{}_config asks for {}, which its messages do not hold", sensor.name, what));
   }
 
   void explain(SensorConfig& sensor) {
@@ -186,38 +190,44 @@ class FileReader {
     if (sensor.type == SensorType::kFix) leaveOut(sensor, 3, 12, "an attitude or velocities");
     if (sensor.type == SensorType::kOdometry && !sensor.params.absolute) explainOdometry(sensor);
     if (imu && sensor.use[5] && !sensor.params.differential)
-      config_.notes.push_back(sensor.name + "_config takes the IMU's yaw: magnetic fields bend it indoors; vyaw alone, "
-                                            "whose bias is estimated, is mostly better");
+      config_.notes.push_back(sensor.name +
+                              "_config takes the IMU's yaw: magnetic fields bend it indoors; vyaw alone, "
+                              "whose bias is estimated, is mostly better");
   }
 
   void explainOdometry(SensorConfig& sensor) {
     if (!uses(sensor, 0, 6)) return;
     if (!sensor.params.differential)
-      config_.notes.push_back(fmt::format("of the poses of {} only the motions count, as with {}_differential: true; "
-                                          "{}_absolute: true takes them as poses in world_frame",
-                                          sensor.name, sensor.name, sensor.name));
+      config_.notes.push_back(
+          fmt::format("of the poses of {} only the motions count, as with {}_differential: true; "
+                      "{}_absolute: true takes them as poses in world_frame",
+                      sensor.name, sensor.name, sensor.name));
     for (std::size_t i = 0; i < 6; ++i) {
       if (!sensor.use[i] || !sensor.use[i + 6]) continue;
       sensor.use[i + 6] = false;
-      config_.notes.push_back(fmt::format("{}: entry {} of its config is left out, since the motions of its pose say the "
-                                          "same: both would count each error twice",
-                                          sensor.name, i + 7));
+      config_.notes.push_back(
+          fmt::format("{}: entry {} of its config is left out, since the motions of its pose say the "
+                      "same: both would count each error twice",
+                      sensor.name, i + 7));
     }
   }
 
   void checkWhole() const {
     const FusionParams& params = config_.params;
     if (params.world_frame != params.map_frame && params.world_frame != params.odom_frame)
-      throw ParameterError(fmt::format("{}: world_frame is '{}', allowed is map_frame ('{}') or odom_frame ('{}')", source_,
-                                       params.world_frame, params.map_frame, params.odom_frame));
+      throw ParameterError(
+          fmt::format("{}: world_frame is '{}', allowed is map_frame ('{}') or odom_frame ('{}')", source_,
+                      params.world_frame, params.map_frame, params.odom_frame));
     if (config_.sensors.empty())
-      throw ParameterError(source_ + ": no sensor; at least one line such as `odom0: wheel/odom` with its odom0_config");
+      throw ParameterError(
+          source_ + ": no sensor; at least one line such as `odom0: wheel/odom` with its odom0_config");
     std::string wheels;
     for (const SensorConfig& sensor : config_.sensors) {
       if (!sensor.params.wheel_scales) continue;
       if (!wheels.empty())
-        throw ParameterError(fmt::format("{}: {} and {} both have wheel_scales: true; the scales are those of one sensor",
-                                         source_, wheels, sensor.name));
+        throw ParameterError(
+            fmt::format("{}: {} and {} both have wheel_scales: true; the scales are those of one sensor",
+                        source_, wheels, sensor.name));
       wheels = sensor.name;
     }
   }

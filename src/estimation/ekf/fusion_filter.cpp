@@ -38,7 +38,8 @@ void FusionFilter::begin(double time_s) {
 }
 
 void FusionFilter::add(Measurement measurement, double received_s) {
-  if (started() && received_s < received_s_ - kClockBack_s) clockSetBack(measurement.time_s, received_s_ - received_s);
+  if (started() && received_s < received_s_ - kClockBack_s)
+    clockSetBack(measurement.time_s, received_s_ - received_s);
   received_s_ = received_s;
   if (!stampUsable(measurement, received_s)) return;
   for (const FieldFinding& finding : checkFields(params_.defaults, measurement))
@@ -52,15 +53,16 @@ bool FusionFilter::stampUsable(const Measurement& measurement, double received_s
   if (measurement.time_s > received_s + kAhead_s || !(measurement.time_s > 0.0)) {
     ++statisticsOf(measurement).ahead;
     say(nameOf(measurement) + "ahead",
-        fmt::format("{}: a stamp lies {:.1f} s after its arrival, the measurement is left out; do the clocks of the two "
-                    "computers agree (chrony)?",
-                    nameOf(measurement), measurement.time_s - received_s),
+        fmt::format(
+            "{}: a stamp lies {:.1f} s after its arrival, the measurement is left out; do the clocks of the two "
+            "computers agree (chrony)?",
+            nameOf(measurement), measurement.time_s - received_s),
         received_s);
     return false;
   }
   if (!started()) return true;
-  const double oldest_s = params_.rewind ? std::max(time_s() - params_.history_s, history_.front().measurement.time_s)
-                                         : time_s();
+  const double oldest_s =
+      params_.rewind ? std::max(time_s() - params_.history_s, history_.front().measurement.time_s) : time_s();
   if (measurement.time_s >= oldest_s) return true;
   ++statisticsOf(measurement).too_late;
   say(nameOf(measurement) + "late",
@@ -74,9 +76,9 @@ bool FusionFilter::stampUsable(const Measurement& measurement, double received_s
 /// The pose stays, its history is void.
 void FusionFilter::clockSetBack(double time_s, double by_s) {
   ++clock_resets_;
-  announcements_.push_back(fmt::format("the clock was set back by {:.1f} s: {}", by_s,
-                                       params_.reset_on_time_jump ? "the filter begins anew"
-                                                                  : "the filter goes on from the present pose"));
+  announcements_.push_back(fmt::format(
+      "the clock was set back by {:.1f} s: {}", by_s,
+      params_.reset_on_time_jump ? "the filter begins anew" : "the filter goes on from the present pose"));
   EstimatorMemory memory = history_.back().memory;
   begin(time_s);
   said_.clear();
@@ -177,9 +179,10 @@ void FusionFilter::report(const Measurement& measurement, const Outcome& outcome
       ++statistics.refused;
       if (outcome.refused != kRefusedInSuccession) break;
       say(nameOf(measurement) + "refused",
-          fmt::format("{} disagrees with what the others and the motion so far say: off by {:.2g}, normalised {:.0f} "
-                      "where {} is usual; it is left out while it does",
-                      nameOf(measurement), outcome.distance, outcome.nis, outcome.fields),
+          fmt::format(
+              "{} disagrees with what the others and the motion so far say: off by {:.2g}, normalised {:.0f} "
+              "where {} is usual; it is left out while it does",
+              nameOf(measurement), outcome.distance, outcome.nis, outcome.fields),
           measurement.time_s);
       break;
     case Outcome::Kind::kAside:
@@ -210,7 +213,9 @@ void FusionFilter::say(const std::string& key, const std::string& text, double t
   if (!repeated) announcements_.push_back(text);
 }
 
-std::vector<std::string> FusionFilter::takeAnnouncements() { return std::exchange(announcements_, {}); }
+std::vector<std::string> FusionFilter::takeAnnouncements() {
+  return std::exchange(announcements_, {});
+}
 
 const std::string& FusionFilter::nameOf(const Measurement& measurement) const {
   return channels()[static_cast<std::size_t>(measurement.channel)].name;

@@ -19,15 +19,17 @@ struct FusedEstimate {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s^2; axes of base_link
 };
 
-/// The filter over any number of sensors, whose measurements may come late and in any order. A late one is put where it
-/// belongs: the state of then is taken from the history and all measurements since are taken in again, so that the result
-/// does not depend on the order of arrival. The history is bounded in time and in bytes.
+/// The filter over any number of sensors, whose measurements may come late and in any order. A late one is
+/// put where it belongs: the state of then is taken from the history and all measurements since are taken in
+/// again, so that the result does not depend on the order of arrival. The history is bounded in time and in
+/// bytes.
 class FusionFilter {
  public:
   FusionFilter(const FilterParams& params, const StateParts& parts, std::vector<Channel> channels);
 
-  /// A measurement that arrives at `received_s` of the clock of the stamps. One with a stamp more than half a second
-  /// later than that is left out. Where `received_s` itself goes back by more than a second, the clock was set back.
+  /// A measurement that arrives at `received_s` of the clock of the stamps. One with a stamp more than half a
+  /// second later than that is left out. Where `received_s` itself goes back by more than a second, the clock
+  /// was set back.
   void add(Measurement measurement, double received_s);
 
   /// Whether there was a measurement, so that there is a pose.
@@ -46,7 +48,8 @@ class FusionFilter {
 
   const std::vector<Channel>& channels() const { return estimator_.channels(); }
   const std::vector<ChannelStatistics>& statistics() const { return statistics_; }
-  /// What the user should know, since the last call; each thing once, and again when it comes back after ten seconds.
+  /// What the user should know, since the last call; each thing once, and again when it comes back after ten
+  /// seconds.
   std::vector<std::string> takeAnnouncements();
   std::size_t historyBytes() const { return history_.size() * entryBytes(); }
   std::size_t clockResets() const { return clock_resets_; }

@@ -7,7 +7,8 @@
 
 namespace stereo_nav::estimation {
 
-/// Single values of the file of a filter, node and program. The names are robot_localization's where it has them.
+/// Single values of the file of a filter, node and program. The names are robot_localization's where it has
+/// them.
 struct FusionParams {
   double frequency_hz = 30.0;
   bool two_d_mode = false;
@@ -27,7 +28,7 @@ struct FusionParams {
 };
 
 /// Single values of one sensor: `odom0_differential`, ...
-struct SensorParams {
+struct FusedSensorParams {
   bool differential = false;
   bool relative = false;
   bool absolute = false;

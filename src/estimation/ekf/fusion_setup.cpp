@@ -21,8 +21,8 @@ bool countsAsMotion(const SensorConfig& sensor) {
 }
 
 /// Adds a channel where it has fields; -1 without.
-int addChannel(const SensorConfig& sensor, Kind kind, const char* what, double gate, const std::vector<int>& fields,
-               std::vector<Channel>& channels) {
+int addChannel(const SensorConfig& sensor, Kind kind, const char* what, double gate,
+               const std::vector<int>& fields, std::vector<Channel>& channels) {
   if (fields.empty()) return -1;
   Channel channel;
   channel.name = sensor.name + " (" + sensor.topic + ")" + what;
@@ -46,15 +46,21 @@ FusionSetup setUp(const FusionConfig& config) {
     own.pose_fields = fieldsOf(sensor, 0, 6);
     own.twist_fields = fieldsOf(sensor, 6, 6);
     own.acceleration_fields = fieldsOf(sensor, 12, 3);
-    const bool several = !own.pose_fields.empty() && !(own.twist_fields.empty() && own.acceleration_fields.empty());
+    const bool several =
+        !own.pose_fields.empty() && !(own.twist_fields.empty() && own.acceleration_fields.empty());
     own.pose = addChannel(sensor, countsAsMotion(sensor) ? Kind::kMotion : Kind::kPose,
-                          imu ? " attitude" : several ? " pose" : "", sensor.params.pose_rejection_threshold,
-                          own.pose_fields, setup.channels);
-    own.twist = addChannel(sensor, imu ? Kind::kRate : Kind::kTwist, imu ? " gyroscope" : several ? " twist" : "",
+                          imu       ? " attitude"
+                          : several ? " pose"
+                                    : "",
+                          sensor.params.pose_rejection_threshold, own.pose_fields, setup.channels);
+    own.twist = addChannel(sensor, imu ? Kind::kRate : Kind::kTwist,
+                           imu       ? " gyroscope"
+                           : several ? " twist"
+                                     : "",
                            sensor.params.twist_rejection_threshold, own.twist_fields, setup.channels);
     own.acceleration = addChannel(sensor, Kind::kAcceleration, " accelerometer",
-                                  sensor.params.linear_acceleration_rejection_threshold, own.acceleration_fields,
-                                  setup.channels);
+                                  sensor.params.linear_acceleration_rejection_threshold,
+                                  own.acceleration_fields, setup.channels);
     setup.parts.wheel_scales = setup.parts.wheel_scales || sensor.params.wheel_scales;
     setup.sensors.push_back(std::move(own));
   }
@@ -65,9 +71,9 @@ FusionSetup setUp(const FusionConfig& config) {
   setup.parts.planar = config.params.two_d_mode;
   setup.parts.gyro = has(Kind::kRate);
   setup.parts.accelerometer = has(Kind::kAcceleration);
-  setup.parts.anchors = static_cast<int>(std::count_if(
-      setup.channels.begin(), setup.channels.end(),
-      [](const Channel& channel) { return channel.kind == Kind::kMotion; }));
+  setup.parts.anchors =
+      static_cast<int>(std::count_if(setup.channels.begin(), setup.channels.end(),
+                                     [](const Channel& channel) { return channel.kind == Kind::kMotion; }));
   return setup;
 }
 

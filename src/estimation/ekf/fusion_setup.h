@@ -10,8 +10,8 @@ namespace stereo_nav::estimation {
 
 /// The channels of one sensor, -1 where it has none of a kind, and the fields that each takes.
 struct SensorChannels {
-  int pose = -1;          ///< poses, or their motions
-  int twist = -1;         ///< velocities and turn rates, or a gyroscope's
+  int pose = -1;   ///< poses, or their motions
+  int twist = -1;  ///< velocities and turn rates, or a gyroscope's
   int acceleration = -1;
   std::vector<int> pose_fields, twist_fields, acceleration_fields;
 };

@@ -14,7 +14,8 @@ constexpr double kMostNoise = 1e4;
 constexpr double kLearningRate = 0.05;
 constexpr int kFewestSamples = 2;
 constexpr double kSigmas = 4.0;
-constexpr double kTolerance = 0.03;  ///< m/s or rad/s: windows of two channels do not cover quite the same time
+constexpr double kTolerance =
+    0.03;  ///< m/s or rad/s: windows of two channels do not cover quite the same time
 
 /// A mean with its standard deviation.
 struct View {
@@ -24,7 +25,8 @@ struct View {
 };
 
 View viewOf(int index, const Channel& channel, const Opinion& opinion, std::size_t field) {
-  View view{index, static_cast<double>(opinion.sum) / opinion.count, opinion.variance_sum / std::pow(opinion.count, 2)};
+  View view{index, static_cast<double>(opinion.sum) / opinion.count,
+            opinion.variance_sum / std::pow(opinion.count, 2)};
   if (opinion.duration_s <= 0.0F) return view;
   // Noise of single poses cancels between neighbouring motions: those of the first and the last one count.
   const double reading = field < 3 ? channel.reading_sigma_m : channel.reading_sigma_rad;
@@ -126,10 +128,10 @@ bool heed(const Verdict& verdict, double now_s, double until_s, std::vector<Chan
 
 std::string describe(const Contradiction& contradiction, const std::vector<Channel>& channels) {
   static const char* const kFields[6] = {"vx", "vy", "vz", "vroll", "vpitch", "vyaw"};
-  return fmt::format("{} and {} disagree about {} by {:.2g} {}",
-                     channels[static_cast<std::size_t>(contradiction.one)].name,
-                     channels[static_cast<std::size_t>(contradiction.other)].name, kFields[contradiction.field],
-                     std::abs(contradiction.difference), contradiction.field < 3 ? "m/s" : "rad/s");
+  return fmt::format(
+      "{} and {} disagree about {} by {:.2g} {}", channels[static_cast<std::size_t>(contradiction.one)].name,
+      channels[static_cast<std::size_t>(contradiction.other)].name, kFields[contradiction.field],
+      std::abs(contradiction.difference), contradiction.field < 3 ? "m/s" : "rad/s");
 }
 
 }  // namespace stereo_nav::estimation

@@ -15,6 +15,7 @@ using Kind = Measurement::Kind;
 constexpr double kAbsurd = 1e6;
 constexpr double kUnknownVariance = 1e5;
 constexpr double kLeastVariance = 1e-14;
+constexpr double kStartRadius_m = 0.05;
 
 const char* nameOf(const Measurement& measurement, int field) {
   static const std::array<const char*, 6> kPoses = {"x", "y", "z", "roll", "pitch", "yaw"};
@@ -69,10 +70,11 @@ class FieldCheck {
       if (usable(field)) good.push_back(field);
     }
     measurement_.fields = good;
-    if (!good.empty() && !positive(measurement_)) {
+    if (!good.empty() && !measurement_.covariance.isZero() && !positive(measurement_)) {
       const Vector6d variances = measurement_.covariance.diagonal();
       measurement_.covariance = variances.asDiagonal();
-      say("covariance", "covariances between fields do not fit their variances: the variances alone are used");
+      say("covariance",
+          "covariances between fields do not fit their variances: the variances alone are used");
     }
     return findings_;
   }
@@ -83,7 +85,8 @@ class FieldCheck {
     const double value = valueOf(measurement_, field);
     if (!(std::abs(value) < kAbsurd)) {
       say(std::string(name) + " value",
-          fmt::format("{} is {:g}, which is no measurement: the field is left out until it is one", name, value));
+          fmt::format("{} is {:g}, which is no measurement: the field is left out until it is one", name,
+                      value));
       return false;
     }
     double& variance = measurement_.covariance(field, field);
@@ -93,16 +96,23 @@ class FieldCheck {
             fmt::format("the variance of {} is {:g}: the field counts as unknown", name, variance));
       return false;
     }
-    if (variance > kLeastVariance) return true;
+    if (variance > kLeastVariance || isStart(variance)) return true;
     const double sigma = defaultSigma(sigmas_, measurement_.kind, field);
     say(std::string(name) + " variance",
-        fmt::format("the variance of {} is {:g}, which no sensor reaches: a standard deviation of {:g} stands in; the "
-                    "parameters default_* change it",
-                    name, variance, sigma));
+        fmt::format(
+            "the variance of {} is {:g}, which no sensor reaches: a standard deviation of {:g} stands in; the "
+            "parameters default_* change it",
+            name, variance, sigma));
     measurement_.covariance.row(field).setZero();
     measurement_.covariance.col(field).setZero();
     variance = sigma * sigma;
     return true;
+  }
+
+  /// Where an odometry begins, its pose is known without error.
+  bool isStart(double variance) const {
+    return measurement_.kind == Kind::kMotion && variance == 0.0 &&
+           measurement_.pose.translation().norm() < kStartRadius_m;
   }
 
   void say(const std::string& key, const std::string& text) { findings_.push_back({key, text}); }

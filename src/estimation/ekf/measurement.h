@@ -21,12 +21,12 @@ struct Measurement {
   int channel = 0;  ///< of the filter: a kind of measurement of one sensor
   double time_s = 0.0;
   Kind kind = Kind::kTwist;
-  std::vector<int> fields;                                         ///< that are used
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();          ///< kPose, kMotion
-  Vector6d value = Vector6d::Zero();                               ///< the other kinds
-  Matrix6d covariance = Matrix6d::Zero();                          ///< of pose (axes of its frame) or value
-  std::optional<Matrix6d> twist_covariance;                        ///< kMotion: of the twist in the same message
-  Eigen::Vector3d p_base_sensor = Eigen::Vector3d::Zero();         ///< kAcceleration: where it sits, m
+  std::vector<int> fields;                                  ///< that are used
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();   ///< kPose, kMotion
+  Vector6d value = Vector6d::Zero();                        ///< the other kinds
+  Matrix6d covariance = Matrix6d::Zero();                   ///< of pose (axes of its frame) or value
+  std::optional<Matrix6d> twist_covariance;                 ///< kMotion: of the twist in the same message
+  Eigen::Vector3d p_base_sensor = Eigen::Vector3d::Zero();  ///< kAcceleration: where it sits, m
 };
 
 /// A reason why a field is left out or its variance replaced.
@@ -45,9 +45,9 @@ struct DefaultSigmas {
   double acceleration_m_s2 = 0.3;
 };
 
-/// Leaves out the fields whose values are not finite, absurd (beyond 1e6) or said to be unknown (a variance of 1e5
-/// or more, or -1 and less), and replaces variances that are zero or no numbers by the default. Covariances between
-/// fields are dropped where they do not fit the variances. Returns what it found.
+/// Leaves out the fields whose values are not finite, absurd (beyond 1e6) or said to be unknown (a variance
+/// of 1e5 or more, or -1 and less), and replaces variances that are zero or no numbers by the default.
+/// Covariances between fields are dropped where they do not fit the variances. Returns what it found.
 std::vector<FieldFinding> checkFields(const DefaultSigmas& sigmas, Measurement& measurement);
 
 }  // namespace stereo_nav::estimation

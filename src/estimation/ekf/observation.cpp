@@ -58,13 +58,16 @@ void observeRate(const State& state, const Measurement& measurement, Whole& whol
   whole.H.block<3, 3>(3, kGyroBias).setIdentity();
 }
 
-/// f = dv/dt + omega x v + omega x (omega x r) + R^T (0 0 g) + bias, the velocity being that in the body's axes.
-void observeAcceleration(const State& state, const Measurement& measurement, double gravity_m_s2, Whole& whole) {
-  const Eigen::Vector3d up = state.T_world_base.linear().transpose() * Eigen::Vector3d(0.0, 0.0, gravity_m_s2);
+/// f = dv/dt + omega x v + omega x (omega x r) + R^T (0 0 g) + bias, the velocity being that in the body's
+/// axes.
+void observeAcceleration(const State& state, const Measurement& measurement, double gravity_m_s2,
+                         Whole& whole) {
+  const Eigen::Vector3d up =
+      state.T_world_base.linear().transpose() * Eigen::Vector3d(0.0, 0.0, gravity_m_s2);
   const Eigen::Vector3d& r = measurement.p_base_sensor;
   const Eigen::Vector3d at_sensor = state.velocity + state.rate.cross(r);
-  whole.residual.head<3>() = measurement.value.head<3>() - state.acceleration - state.rate.cross(at_sensor) - up -
-                             state.accelerometer_bias;
+  whole.residual.head<3>() = measurement.value.head<3>() - state.acceleration - state.rate.cross(at_sensor) -
+                             up - state.accelerometer_bias;
   whole.H.block<3, 3>(0, kRotation) = hat(up);
   whole.H.block<3, 3>(0, kVelocity) = hat(state.rate);
   whole.H.block<3, 3>(0, kRate) = -hat(at_sensor) - hat(state.rate) * hat(r);
@@ -102,7 +105,9 @@ Innovation picked(const StateLayout& layout, const Whole& whole, const Matrix6d&
   return innovation;
 }
 
-Eigen::Index columns(const StateLayout& layout) { return kAnchors + 6 * layout.anchors(); }
+Eigen::Index columns(const StateLayout& layout) {
+  return kAnchors + 6 * layout.anchors();
+}
 
 }  // namespace
 
@@ -121,8 +126,8 @@ Innovation observe(const StateLayout& layout, const State& state, const Measurem
   return picked(layout, whole, measurement.covariance, fields);
 }
 
-Innovation observeAnchor(const StateLayout& layout, const State& state, int anchor, const std::vector<int>& fields,
-                         const Vector6d& variances) {
+Innovation observeAnchor(const StateLayout& layout, const State& state, int anchor,
+                         const std::vector<int>& fields, const Vector6d& variances) {
   const int first = kAnchors + 6 * anchor;
   const Eigen::Isometry3d T_anchor_base =
       state.anchors[static_cast<std::size_t>(anchor)].inverse() * state.T_world_base;
@@ -150,8 +155,8 @@ Eigen::Isometry3d scaled(const Eigen::Isometry3d& motion, const Eigen::Vector3d&
   return expMotion(twist);
 }
 
-void moveAnchor(const StateLayout& layout, int anchor, const Eigen::Isometry3d& motion, const Matrix6d& covariance,
-                bool wheels, State& state) {
+void moveAnchor(const StateLayout& layout, int anchor, const Eigen::Isometry3d& motion,
+                const Matrix6d& covariance, bool wheels, State& state) {
   const Eigen::Isometry3d corrected = wheels ? scaled(motion, state.wheel_scale) : motion;
   const Matrix6d carried = adjoint(corrected.inverse());
   const Vector6d twist = logMotion(motion);
@@ -167,7 +172,8 @@ void moveAnchor(const StateLayout& layout, int anchor, const Eigen::Isometry3d& 
     const int field = rows[static_cast<std::size_t>(i)];
     for (const int other : rows) L(i, layout.at(first + other)) = carried(field, other);
     const int scale = field < 2 ? field : field == 5 ? 2 : -1;
-    if (wheels && scale >= 0 && layout.at(kScale + scale) >= 0) L(i, layout.at(kScale + scale)) = twist[field];
+    if (wheels && scale >= 0 && layout.at(kScale + scale) >= 0)
+      L(i, layout.at(kScale + scale)) = twist[field];
   }
   const Eigen::MatrixXd across = L * state.covariance;
   const Eigen::MatrixXd own = across * L.transpose();

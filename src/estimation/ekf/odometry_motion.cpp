@@ -23,8 +23,8 @@ Matrix6d withoutNegativeParts(const Matrix6d& difference) {
   least << Eigen::Vector3d::Constant(kLeastSigma_m), Eigen::Vector3d::Constant(kLeastSigma_rad);
   const Matrix6d scaled = least.cwiseInverse().asDiagonal() * difference * least.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(0.5 * (scaled + scaled.transpose()));
-  const Matrix6d clipped =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(1.0).asDiagonal() * eigen.eigenvectors().transpose();
+  const Matrix6d clipped = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(1.0).asDiagonal() *
+                           eigen.eigenvectors().transpose();
   return least.asDiagonal() * clipped * least.asDiagonal();
 }
 

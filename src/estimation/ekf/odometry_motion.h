@@ -11,8 +11,9 @@ struct OdometryMotion {
   double duration_s = 0.0;
 };
 
-/// Its covariance is, in this order, what the covariance of the pose has grown by; where that stays the same, which no
-/// odometry's does, that of the twist over the time; without either a twentieth of the motion, 2 mm and 1 mrad.
+/// Its covariance is, in this order, what the covariance of the pose has grown by; where that stays the same,
+/// which no odometry's does, that of the twist over the time; without either a twentieth of the motion, 2 mm
+/// and 1 mrad.
 OdometryMotion motionSince(const ChannelMemory& memory, const Measurement& measurement);
 
 }  // namespace stereo_nav::estimation

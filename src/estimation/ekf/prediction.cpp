@@ -68,16 +68,13 @@ Eigen::MatrixXd integratedNoise(const StateLayout& layout, const ProcessNoise& n
 void step(const StateLayout& layout, const ProcessNoise& noise, double step_s, State& state) {
   const int n = layout.coreRows();
   const int anchored = layout.rows() - n;
-  const Eigen::MatrixXd F =
-      keptTransition(layout, transitionOf(state, step_s, noise.acceleration_decay_s));
+  const Eigen::MatrixXd F = keptTransition(layout, transitionOf(state, step_s, noise.acceleration_decay_s));
   auto core = state.covariance.topLeftCorner(n, n);
   core = (F * core * F.transpose()).eval() + integratedNoise(layout, noise, state, step_s);
   core = (0.5 * (core + core.transpose())).eval();
   if (anchored > 0) {
-    state.covariance.topRightCorner(n, anchored) =
-        (F * state.covariance.topRightCorner(n, anchored)).eval();
-    state.covariance.bottomLeftCorner(anchored, n) =
-        state.covariance.topRightCorner(n, anchored).transpose();
+    state.covariance.topRightCorner(n, anchored) = (F * state.covariance.topRightCorner(n, anchored)).eval();
+    state.covariance.bottomLeftCorner(anchored, n) = state.covariance.topRightCorner(n, anchored).transpose();
   }
   const Decay decay = decayAfter(step_s, noise.acceleration_decay_s);
   state.T_world_base = renormalised(state.T_world_base * motionIn(state, step_s, decay));

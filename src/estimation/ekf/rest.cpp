@@ -16,14 +16,17 @@ constexpr double kTurnSigma_rad_s = 0.001;
 
 }  // namespace
 
-bool tellsTwist(Kind kind) { return kind == Kind::kTwist || kind == Kind::kRate || kind == Kind::kMotion; }
+bool tellsTwist(Kind kind) {
+  return kind == Kind::kTwist || kind == Kind::kRate || kind == Kind::kMotion;
+}
 
 Vector6d twistOf(const Measurement& measurement, const State& state, const ChannelMemory& memory) {
   Vector6d twist = Vector6d::Zero();
   if (measurement.kind == Kind::kRate) twist.tail<3>() = measurement.value.tail<3>() - state.gyro_bias;
   if (measurement.kind == Kind::kTwist) twist = measurement.value;
   if (measurement.kind == Kind::kMotion && memory.anchored && measurement.time_s > memory.anchored_s)
-    twist = logMotion(memory.T_odometry_base.inverse() * measurement.pose) / (measurement.time_s - memory.anchored_s);
+    twist = logMotion(memory.T_odometry_base.inverse() * measurement.pose) /
+            (measurement.time_s - memory.anchored_s);
   for (int field = 0; field < 6; ++field) {
     if (std::find(measurement.fields.begin(), measurement.fields.end(), field) == measurement.fields.end())
       twist[field] = 0.0;
@@ -36,7 +39,8 @@ void smoothTwist(const Vector6d& twist, double interval_s, ChannelMemory& memory
   memory.smooth_twist += share * (twist - memory.smooth_twist);
 }
 
-bool sayRest(const std::vector<Channel>& channels, const std::vector<ChannelMemory>& memories, double time_s) {
+bool sayRest(const std::vector<Channel>& channels, const std::vector<ChannelMemory>& memories,
+             double time_s) {
   bool way_measured = false;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     if (!tellsTwist(channels[i].kind) || time_s - memories[i].newest_s > kHeard_s) continue;
@@ -55,8 +59,8 @@ Innovation observeRest(const StateLayout& layout, const State& state) {
   Vector6d twist;
   twist << state.velocity, state.rate;
   const auto n = static_cast<Eigen::Index>(kept.size());
-  Innovation innovation{Eigen::VectorXd(n), Eigen::MatrixXd::Zero(n, layout.rows()), Eigen::MatrixXd::Zero(n, n), {},
-                        0.0, 0.0};
+  Innovation innovation{
+      Eigen::VectorXd(n), Eigen::MatrixXd::Zero(n, layout.rows()), Eigen::MatrixXd::Zero(n, n), {}, 0.0, 0.0};
   for (Eigen::Index i = 0; i < n; ++i) {
     const int field = kept[static_cast<std::size_t>(i)] - error_row::kVelocity;
     innovation.residual[i] = -twist[field];

@@ -45,7 +45,8 @@ void StateLayout::add(const Eigen::VectorXd& error, State& state) const {
   const auto part = [&whole](int row) -> Eigen::Vector3d { return whole.segment<3>(row); };
   const auto move = [&part](int row, Eigen::Isometry3d& T) {
     T.translation() += T.linear() * part(row);
-    T.linear() = (Eigen::Quaterniond(T.linear()) * expQuaternion(part(row + 3))).normalized().toRotationMatrix();
+    T.linear() =
+        (Eigen::Quaterniond(T.linear()) * expQuaternion(part(row + 3))).normalized().toRotationMatrix();
   };
   move(error_row::kPosition, state.T_world_base);
   state.velocity += part(error_row::kVelocity);

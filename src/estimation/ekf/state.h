@@ -23,10 +23,10 @@ constexpr int kAnchors = 24;  ///< six rows for each anchor from here on
 struct State {
   double time_s = 0.0;
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< m/s
-  Eigen::Vector3d rate = Eigen::Vector3d::Zero();          ///< rad/s
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< d velocity / dt, m/s^2
-  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();     ///< rad/s, axes of base_link
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< m/s
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();                ///< rad/s
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();        ///< d velocity / dt, m/s^2
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();           ///< rad/s, axes of base_link
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();  ///< m/s^2, axes of base_link
   /// Forward, left and turning: true motion = (1 + scale) times that of the wheels.
   Eigen::Vector3d wheel_scale = Eigen::Vector3d::Zero();

@@ -38,17 +38,19 @@ EkfLocalizationNode::EkfLocalizationNode(ros::NodeHandle handle, ros::NodeHandle
       setup_(estimation::setUp(config_)),
       filter_(config_.params.filter, setup_.parts, setup_.channels),
       tf_listener_(tf_buffer_),
-      messages_(config_, setup_,
-                [this](const std::string& frame) -> std::optional<Eigen::Isometry3d> {
-                  try {
-                    return ros_io::toIsometry(
-                        tf_buffer_.lookupTransform(config_.params.base_link_frame, frame, ros::Time(0)).transform);
-                  } catch (const tf2::TransformException& error) {
-                    ROS_WARN_STREAM_THROTTLE(10.0, name_ << ": " << ros_io::missingTransform(
-                                                       config_.params.base_link_frame, frame, false, error.what()));
-                    return std::nullopt;
-                  }
-                }),
+      messages_(
+          config_, setup_,
+          [this](const std::string& frame) -> std::optional<Eigen::Isometry3d> {
+            try {
+              return ros_io::toIsometry(
+                  tf_buffer_.lookupTransform(config_.params.base_link_frame, frame, ros::Time(0)).transform);
+            } catch (const tf2::TransformException& error) {
+              ROS_WARN_STREAM_THROTTLE(10.0, name_ << ": "
+                                                   << ros_io::missingTransform(config_.params.base_link_frame,
+                                                                               frame, false, error.what()));
+              return std::nullopt;
+            }
+          }),
       updater_(handle_, private_handle_, name_),
       heard_s_(config_.sensors.size(), 0.0),
       enabled_(!config_.params.disabled_at_startup) {
@@ -76,7 +78,9 @@ void EkfLocalizationNode::subscribeAs(std::size_t sensor) {
   ros::TransportHints hints;
   if (config.params.nodelay) hints = hints.tcpNoDelay();
   const boost::function<void(const typename Message::ConstPtr&)> handle =
-      [this, sensor](const typename Message::ConstPtr& message) { take(sensor, messages_.convert(sensor, *message)); };
+      [this, sensor](const typename Message::ConstPtr& message) {
+        take(sensor, messages_.convert(sensor, *message));
+      };
   const auto queue = static_cast<std::uint32_t>(std::max(config.params.queue_size, 50));
   subscribers_.push_back(handle_.subscribe<Message>(config.topic, queue, handle, ros::VoidConstPtr(), hints));
 }
@@ -126,19 +130,21 @@ void EkfLocalizationNode::publishTransform(const estimation::FusedEstimate& esti
   const estimation::FusionParams& params = config_.params;
   const double time_s = estimate.time_s + params.transform_time_offset_s;
   if (params.world_frame == params.odom_frame) {
-    broadcaster_.sendTransform(toTransform(estimate.T_world_base, params.odom_frame, params.base_link_frame, time_s));
+    broadcaster_.sendTransform(
+        toTransform(estimate.T_world_base, params.odom_frame, params.base_link_frame, time_s));
     return;
   }
   try {
-    const auto T_odom_base = tf_buffer_.lookupTransform(params.odom_frame, params.base_link_frame, ros::Time(0));
+    const auto T_odom_base =
+        tf_buffer_.lookupTransform(params.odom_frame, params.base_link_frame, ros::Time(0));
     const Eigen::Isometry3d T_map_odom =
         estimate.T_world_base * ros_io::toIsometry(T_odom_base.transform).inverse();
     broadcaster_.sendTransform(toTransform(T_map_odom, params.map_frame, params.odom_frame, time_s));
   } catch (const tf2::TransformException& error) {
-    ROS_WARN_STREAM_THROTTLE(10.0, name_ << ": no transform " << params.map_frame << " -> " << params.odom_frame
-                                         << " is published, since nobody publishes " << params.odom_frame << " -> "
-                                         << params.base_link_frame << " (" << error.what()
-                                         << "); start the filter of the odom frame, too");
+    ROS_WARN_STREAM_THROTTLE(10.0, name_ << ": no transform " << params.map_frame << " -> "
+                                         << params.odom_frame << " is published, since nobody publishes "
+                                         << params.odom_frame << " -> " << params.base_link_frame << " ("
+                                         << error.what() << "); start the filter of the odom frame, too");
   }
 }
 
@@ -150,8 +156,9 @@ void EkfLocalizationNode::handleTransforms(const ros::MessageEvent<const tf2_msg
   for (const auto& transform : event.getMessage()->transforms) {
     if (ros_io::withoutSlash(transform.child_frame_id) != child) continue;
     other_publisher_ = event.getPublisherName();
-    ROS_ERROR_STREAM(name_ << ": " << other_publisher_ << " publishes the transform to " << child
-                           << ", too: the pose jumps between the two; set publish_tf to false in one of them");
+    ROS_ERROR_STREAM(
+        name_ << ": " << other_publisher_ << " publishes the transform to " << child
+              << ", too: the pose jumps between the two; set publish_tf to false in one of them");
     return;
   }
 }
@@ -172,19 +179,22 @@ void EkfLocalizationNode::handleSetPose(const geometry_msgs::PoseWithCovarianceS
   messages_.reset();
 }
 
-bool EkfLocalizationNode::handleReset(std_srvs::Empty::Request& /*request*/, std_srvs::Empty::Response& /*response*/) {
+bool EkfLocalizationNode::handleReset(std_srvs::Empty::Request& /*request*/,
+                                      std_srvs::Empty::Response& /*response*/) {
   filter_.reset();
   messages_.reset();
   next_s_ = published_s_ = 0.0;
   return true;
 }
 
-bool EkfLocalizationNode::handleEnable(std_srvs::Empty::Request& /*request*/, std_srvs::Empty::Response& /*response*/) {
+bool EkfLocalizationNode::handleEnable(std_srvs::Empty::Request& /*request*/,
+                                       std_srvs::Empty::Response& /*response*/) {
   enabled_ = true;
   return true;
 }
 
-bool EkfLocalizationNode::handleToggle(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+bool EkfLocalizationNode::handleToggle(std_srvs::SetBool::Request& request,
+                                       std_srvs::SetBool::Response& response) {
   response.success = 1;
   response.message = request.data != 0 ? "measurements are taken in" : "measurements are left out";
   enabled_ = request.data != 0;
@@ -193,18 +203,22 @@ bool EkfLocalizationNode::handleToggle(std_srvs::SetBool::Request& request, std_
 
 void EkfLocalizationNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using Level = diagnostic_msgs::DiagnosticStatus;
-  status.summary(Level::OK, !enabled_ ? "switched off (enable, toggle)" : filter_.started() ? "running" : "waiting for a sensor");
+  status.summary(Level::OK, !enabled_           ? "switched off (enable, toggle)"
+                            : filter_.started() ? "running"
+                                                : "waiting for a sensor");
   const double now_s = ros::Time::now().toSec();
   for (std::size_t i = 0; i < heard_s_.size(); ++i) {
     if (now_s - heard_s_[i] > config_.params.sensor_timeout_s)
-      status.mergeSummary(Level::WARN, fmt::format("{} ({}) is silent", config_.sensors[i].name, config_.sensors[i].topic));
+      status.mergeSummary(
+          Level::WARN, fmt::format("{} ({}) is silent", config_.sensors[i].name, config_.sensors[i].topic));
   }
-  if (!other_publisher_.empty()) status.mergeSummary(Level::ERROR, other_publisher_ + " publishes the same transform");
+  if (!other_publisher_.empty())
+    status.mergeSummary(Level::ERROR, other_publisher_ + " publishes the same transform");
   for (std::size_t i = 0; i < setup_.channels.size(); ++i) {
     const estimation::ChannelStatistics& channel = filter_.statistics()[i];
     status.add(setup_.channels[i].name,
-               fmt::format("{} used, {} refused, {} set aside, {} too late, {} ahead, NIS per field {:.2f}", channel.used,
-                           channel.refused, channel.aside, channel.too_late, channel.ahead,
+               fmt::format("{} used, {} refused, {} set aside, {} too late, {} ahead, NIS per field {:.2f}",
+                           channel.used, channel.refused, channel.aside, channel.too_late, channel.ahead,
                            channel.nis_fields > 0.0 ? channel.nis_sum / channel.nis_fields : 0.0));
   }
   status.add("us per measurement", taken_ > 0 ? 1e6 * busy_s_ / static_cast<double>(taken_) : 0.0);

@@ -18,9 +18,9 @@
 
 namespace stereo_nav::nodes {
 
-/// Subscribes the sensors of its parameters and `set_pose`; publishes `odometry/filtered`, tf and diagnostics; serves
-/// `reset`, `toggle` and `enable`. Driven by its messages: what they leave is published `frequency` times a second. All
-/// callbacks run in one thread.
+/// Subscribes the sensors of its parameters and `set_pose`; publishes `odometry/filtered`, tf and
+/// diagnostics; serves `reset`, `toggle` and `enable`. Driven by its messages: what they leave is published
+/// `frequency` times a second. All callbacks run in one thread.
 class EkfLocalizationNode {
  public:
   /// Throws ParameterError.

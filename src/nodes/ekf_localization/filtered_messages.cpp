@@ -19,7 +19,8 @@ geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-nav_msgs::Odometry toOdometry(const estimation::FusedEstimate& estimate, const estimation::FusionParams& params) {
+nav_msgs::Odometry toOdometry(const estimation::FusedEstimate& estimate,
+                              const estimation::FusionParams& params) {
   nav_msgs::Odometry odometry;
   odometry.header.stamp = ros::Time(estimate.time_s);
   odometry.header.frame_id = params.world_frame;
@@ -41,8 +42,9 @@ geometry_msgs::AccelWithCovarianceStamped toAcceleration(const estimation::Fused
   return acceleration;
 }
 
-geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child, const std::string& parent,
-                                            const std::string& child, double time_s) {
+geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
+                                            const std::string& parent, const std::string& child,
+                                            double time_s) {
   geometry_msgs::TransformStamped transform = tf2::eigenToTransform(T_parent_child);
   transform.header.stamp = ros::Time(time_s);
   transform.header.frame_id = parent;

@@ -6,10 +6,10 @@
 #include "core/angles.h"
 #include "core/planar_motion.h"
 #include "odometry/laser/laser_odometry.h"
+#include "ros/laser_feed.h"
 #include "ros/laser_recording.h"
 #include "stereo_nav/core/parameters.h"
 #include "stereo_nav/ros/topics.h"
-#include "tools/common/laser_feed.h"
 #include "tools/evaluate/truth_of_base.h"
 
 namespace stereo_nav::tools {
@@ -63,7 +63,7 @@ struct LaserPass {
 LaserPass laserPass(const odometry::LaserParams& params, const ros_io::LaserRecording& recording,
                     bool with_prior) {
   odometry::LaserOdometry odometry(params);
-  LaserFeed feed(recording, odometry);
+  ros_io::LaserFeed feed(recording, odometry);
   LaserPass result;
   for (const odometry::LaserScan& scan : recording.scans()) {
     if (with_prior) feed.upTo(scan.time_s + scan.sweep_s());

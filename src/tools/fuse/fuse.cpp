@@ -34,10 +34,12 @@ int run(int argc, char** argv) {
   writeFileAtomically(folder + "fusion.json", fusionJson(run, errors));
   writeFileAtomically(folder + "timing.json", eval::toJson(timing));
   const auto warning = eval::writeReport(options->output, evaluation, run.input, timing);
-  std::printf("%s with %s, %zu measurements\n", run.input.input.c_str(), run.input.config.c_str(), run.measurements);
+  std::printf("%s with %s, %zu measurements\n", run.input.input.c_str(), run.input.config.c_str(),
+              run.measurements);
   printFusion(run, errors);
   printEnd(run);
-  std::printf("  filter per measurement %.1f us median, %.1f us p99\n", 1e3 * timing.median_ms, 1e3 * timing.p99_ms);
+  std::printf("  filter per measurement %.1f us median, %.1f us p99\n", 1e3 * timing.median_ms,
+              1e3 * timing.p99_ms);
   for (const std::string& text : run.announcements) std::printf("  said at %s\n", text.c_str());
   for (const std::string& note : run.input.notes) std::fprintf(stderr, "fuse: note: %s\n", note.c_str());
   if (warning) std::fprintf(stderr, "fuse: %s\n", warning->c_str());

@@ -11,17 +11,18 @@ namespace stereo_nav::tools {
 
 std::optional<FuseOptions> parseFuseOptions(int argc, char** argv) {
   namespace po = boost::program_options;
-  po::options_description visible(
-      helpHeading("usage: fuse BAG [options]",
-                  "Runs the filter of ekf_localization over the topics of a recording, as fast as it can, and measures it "
-                  "against ground truth. Two runs give the same bytes."));
+  po::options_description visible(helpHeading(
+      "usage: fuse BAG [options]",
+      "Runs the filter of ekf_localization over the topics of a recording, as fast as it can, and measures it "
+      "against ground truth. Two runs give the same bytes."));
   visible.add_options()        //
       ("help,h", "this text")  //
       ("config", po::value<std::string>()->default_value("fusion/planar.yaml"),
        "parameters of the filter, ours or those of robot_localization: a path, or a file of the package's config folder")  //
       ("laser-config", po::value<std::string>()->default_value("laser_odometry.yaml"),
        "parameters of the laser odometry, which is run where the bag holds scans but no laser/odom")  //
-      ("only", po::value<std::string>(), "sensors of the file that are used, e.g. odom0,imu0 (default: all)")  //
+      ("only", po::value<std::string>(),
+       "sensors of the file that are used, e.g. odom0,imu0 (default: all)")  //
       ("ground-truth", po::value<std::string>(),
        "TUM trajectory file, or topic in the bag (default: ground_truth/odom if the bag has it)")  //
       ("ground-truth-frame", po::value<std::string>(),
@@ -41,8 +42,9 @@ std::optional<FuseOptions> parseFuseOptions(int argc, char** argv) {
   if (values.count("ground-truth") != 0) options.ground_truth = values["ground-truth"].as<std::string>();
   if (values.count("ground-truth-frame") != 0)
     options.ground_truth_frame = values["ground-truth-frame"].as<std::string>();
-  options.output = values.count("output") != 0 ? values["output"].as<std::string>()
-                                               : std::filesystem::path(options.bag).stem().string() + "_fusion";
+  options.output = values.count("output") != 0
+                       ? values["output"].as<std::string>()
+                       : std::filesystem::path(options.bag).stem().string() + "_fusion";
   return options;
 }
 

@@ -13,7 +13,7 @@ struct FuseOptions {
   std::set<std::string> only;               ///< sensors that are used, e.g. odom0; empty: all
   std::optional<std::string> ground_truth;  ///< TUM file or topic
   std::optional<std::string> ground_truth_frame;
-  std::string output;                       ///< folder
+  std::string output;  ///< folder
 };
 
 /// Nothing when help was asked for and printed. Throws InputError with one line for bad arguments.

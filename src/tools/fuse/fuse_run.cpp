@@ -16,10 +16,14 @@ namespace {
 using FusionClock = std::chrono::steady_clock;
 
 estimation::FusionConfig readConfig(const FuseOptions& options) {
-  estimation::FusionConfig config = estimation::readFusionConfig(loadYamlFile(options.config), options.config);
-  const auto unused = [&options](const estimation::SensorConfig& sensor) { return options.only.count(sensor.name) == 0; };
+  estimation::FusionConfig config =
+      estimation::readFusionConfig(loadYamlFile(options.config), options.config);
+  const auto unused = [&options](const estimation::SensorConfig& sensor) {
+    return options.only.count(sensor.name) == 0;
+  };
   if (options.only.empty()) return config;
-  config.sensors.erase(std::remove_if(config.sensors.begin(), config.sensors.end(), unused), config.sensors.end());
+  config.sensors.erase(std::remove_if(config.sensors.begin(), config.sensors.end(), unused),
+                       config.sensors.end());
   if (config.sensors.size() != options.only.size())
     throw InputError(options.config + ": --only names a sensor that the file does not have");
   return config;
@@ -27,8 +31,9 @@ estimation::FusionConfig readConfig(const FuseOptions& options) {
 
 Trajectory truthOf(const FuseOptions& options, const ros_io::RecordedRobot& robot) {
   if (!options.ground_truth || !std::filesystem::exists(*options.ground_truth))
-    return robot.poses(options.ground_truth.value_or(ros_io::topics::kGroundTruth), options.ground_truth.has_value(),
-                       options.ground_truth_frame)
+    return robot
+        .poses(options.ground_truth.value_or(ros_io::topics::kGroundTruth), options.ground_truth.has_value(),
+               options.ground_truth_frame)
         .trajectory;
   const Trajectory truth = readTum(*options.ground_truth);
   const std::string frame = options.ground_truth_frame.value_or(ros_io::frames::kBase);

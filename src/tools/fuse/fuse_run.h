@@ -19,7 +19,8 @@ struct FuseRun {
   std::size_t measurements = 0;
 };
 
-/// Runs the filter over the recording, which gives a pose `frequency` times a second. Throws InputError, ParameterError.
+/// Runs the filter over the recording, which gives a pose `frequency` times a second. Throws InputError,
+/// ParameterError.
 FuseRun runFusion(const FuseOptions& options);
 
 }  // namespace stereo_nav::tools

@@ -7,12 +7,13 @@
 #include <optional>
 
 #include "core/planar_motion.h"
+#include "odometry/laser/laser_odometry.h"
 #include "ros/fusion_messages.h"
+#include "ros/laser_feed.h"
 #include "ros/laser_recording.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/parameters.h"
 #include "stereo_nav/ros/topics.h"
-#include "tools/common/laser_feed.h"
 
 namespace stereo_nav::tools {
 namespace {
@@ -48,15 +49,16 @@ nav_msgs::Odometry toOdometry(const odometry::LaserOdometryResult& result) {
   message.pose.pose.orientation.z = q.z();
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance.data()) =
       spatialCovariance(result.pose_covariance);
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.twist.covariance.data()) = Matrix6d::Zero();
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.twist.covariance.data()) =
+      Matrix6d::Zero();
   return message;
 }
 
 /// Reads the sensors one after the other.
 class InputReader {
  public:
-  InputReader(const FuseOptions& options, const ros_io::RecordedRobot& robot, const estimation::FusionConfig& config,
-              const estimation::FusionSetup& setup)
+  InputReader(const FuseOptions& options, const ros_io::RecordedRobot& robot,
+              const estimation::FusionConfig& config, const estimation::FusionSetup& setup)
       : options_(options),
         robot_(robot),
         config_(config),
@@ -72,17 +74,18 @@ class InputReader {
                  robot_.find(ros_io::topics::kScan)) {
         computeLaser(sensor);
       } else {
-        input_.notes.push_back(fmt::format("{}: the bag has no topic {}; it holds {}", one.name, one.topic, robot_.topicList()));
+        input_.notes.push_back(
+            fmt::format("{}: the bag has no topic {}; it holds {}", one.name, one.topic, robot_.topicList()));
         continue;
       }
       ++with_topic;
     }
     if (with_topic == 0)
-      throw InputError(fmt::format("{}: none of the sensors of {} is in the bag, which holds {}", robot_.path(),
-                                   options_.config, robot_.topicList()));
+      throw InputError(fmt::format("{}: none of the sensors of {} is in the bag, which holds {}",
+                                   robot_.path(), options_.config, robot_.topicList()));
     for (const auto& [frame, count] : messages_.unknownFrames())
-      input_.notes.push_back(fmt::format("{} messages of '{}' are left out: tf_static has no transform from base_link to it",
-                                         count, frame));
+      input_.notes.push_back(fmt::format(
+          "{} messages of '{}' are left out: tf_static has no transform from base_link to it", count, frame));
     std::stable_sort(input_.measurements.begin(), input_.measurements.end(),
                      [](const auto& a, const auto& b) { return a.received_s < b.received_s; });
     return std::move(input_);
@@ -116,18 +119,22 @@ class InputReader {
 
   void readTopic(std::size_t sensor, const std::string& topic) {
     const SensorType type = config_.sensors[sensor].type;
-    robot_.order().forEach(robot_.bag(), {topic}, [&](const rosbag::MessageInstance& message, const ros::Time& received) {
-      const double received_s = received.toSec();
-      const bool fits =
-          (type == SensorType::kOdometry && convertAs<nav_msgs::Odometry>(sensor, message, received_s)) ||
-          (type == SensorType::kPose && convertAs<geometry_msgs::PoseWithCovarianceStamped>(sensor, message, received_s)) ||
-          (type == SensorType::kTwist && convertAs<geometry_msgs::TwistWithCovarianceStamped>(sensor, message, received_s)) ||
-          (type == SensorType::kImu && convertAs<sensor_msgs::Imu>(sensor, message, received_s)) ||
-          (type == SensorType::kFix && convertAs<sensor_msgs::NavSatFix>(sensor, message, received_s));
-      if (!fits)
-        throw InputError(fmt::format("{}: {} is {}, but {} expects {}", robot_.path(), topic, message.getDataType(),
-                                     config_.sensors[sensor].name, messageType(type)));
-    });
+    robot_.order().forEach(
+        robot_.bag(), {topic}, [&](const rosbag::MessageInstance& message, const ros::Time& received) {
+          const double received_s = received.toSec();
+          const bool fits =
+              (type == SensorType::kOdometry && convertAs<nav_msgs::Odometry>(sensor, message, received_s)) ||
+              (type == SensorType::kPose &&
+               convertAs<geometry_msgs::PoseWithCovarianceStamped>(sensor, message, received_s)) ||
+              (type == SensorType::kTwist &&
+               convertAs<geometry_msgs::TwistWithCovarianceStamped>(sensor, message, received_s)) ||
+              (type == SensorType::kImu && convertAs<sensor_msgs::Imu>(sensor, message, received_s)) ||
+              (type == SensorType::kFix && convertAs<sensor_msgs::NavSatFix>(sensor, message, received_s));
+          if (!fits)
+            throw InputError(fmt::format("{}: {} is {}, but {} expects {}", robot_.path(), topic,
+                                         message.getDataType(), config_.sensors[sensor].name,
+                                         messageType(type)));
+        });
   }
 
   void computeLaser(std::size_t sensor) {
@@ -135,15 +142,16 @@ class InputReader {
     readParameters(loadYamlFile(options_.laser_config), options_.laser_config, params);
     const ros_io::LaserRecording recording(robot_.path(), {});
     odometry::LaserOdometry odometry(params);
-    LaserFeed feed(recording, odometry);
+    ros_io::LaserFeed feed(recording, odometry);
     for (const odometry::LaserScan& scan : recording.scans()) {
       feed.upTo(scan.time_s + scan.sweep_s());
       const auto result = odometry.process(scan, recording.T_base_laser());
       // On the robot the pose comes when the scan is complete.
       add(scan.time_s + scan.sweep_s(), messages_.convert(sensor, toOdometry(result)));
     }
-    input_.notes.push_back(fmt::format("{}: the bag has no topic {}: it is computed from the {} scans", 
-                                       config_.sensors[sensor].name, kLaserOdometry, recording.scans().size()));
+    input_.notes.push_back(fmt::format("{}: the bag has no topic {}: it is computed from the {} scans",
+                                       config_.sensors[sensor].name, kLaserOdometry,
+                                       recording.scans().size()));
   }
 
   const FuseOptions& options_;

@@ -21,8 +21,8 @@ struct FusionInput {
   std::vector<std::string> notes;
 };
 
-/// Reads the topics of all sensors. A sensor on laser/odom is computed from the scans where the bag has no such topic. Throws
-/// InputError where none of the sensors has a topic in the bag.
+/// Reads the topics of all sensors. A sensor on laser/odom is computed from the scans where the bag has no
+/// such topic. Throws InputError where none of the sensors has a topic in the bag.
 FusionInput readFusionInput(const FuseOptions& options, const ros_io::RecordedRobot& robot,
                             const estimation::FusionConfig& config, const estimation::FusionSetup& setup);
 

@@ -13,7 +13,8 @@
 namespace stereo_nav::tools {
 namespace {
 
-constexpr const char* kWarning = "errors of opposite signs cancel in this formula; it is here for comparison alone";
+constexpr const char* kWarning =
+    "errors of opposite signs cancel in this formula; it is here for comparison alone";
 
 /// Truth at an instant, interpolated; nothing outside of it.
 std::optional<Eigen::Isometry3d> truthAt(const Trajectory& truth, double time_s) {
@@ -39,7 +40,8 @@ double perField(const estimation::ChannelStatistics& statistics) {
 
 /// Sums over the poses.
 struct Sums {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), absolute = Eigen::Vector3d::Zero(), squared = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), absolute = Eigen::Vector3d::Zero(),
+                  squared = Eigen::Vector3d::Zero();
   double nees = 0.0;
   std::size_t inside = 0, poses = 0;
 };
@@ -138,11 +140,14 @@ void printFusion(const FuseRun& run, const PoseErrors& errors) {
   if (errors.poses == 0) {
     std::printf("  no ground truth: the errors are unknown (--ground-truth names a file or a topic)\n");
   } else {
-    std::printf("  RMSE x, y, yaw   %8.3f m %8.3f m %8.2f deg\n", errors.rmse_x_m, errors.rmse_y_m, errors.rmse_yaw_deg);
-    std::printf("  MAE x, y, yaw    %8.3f m %8.3f m %8.2f deg\n", errors.mae_x_m, errors.mae_y_m, errors.mae_yaw_deg);
-    std::printf("  abs(sum)/sqrt(N) %8.3f m %8.3f m  (warning: %s)\n", errors.published_x_m, errors.published_y_m, kWarning);
-    std::printf("  NEES of the pose %8.2f (%d expected), %.1f %% inside 95 %%\n", errors.nees_mean, errors.nees_expected,
-                errors.nees_inside_95_percent);
+    std::printf("  RMSE x, y, yaw   %8.3f m %8.3f m %8.2f deg\n", errors.rmse_x_m, errors.rmse_y_m,
+                errors.rmse_yaw_deg);
+    std::printf("  MAE x, y, yaw    %8.3f m %8.3f m %8.2f deg\n", errors.mae_x_m, errors.mae_y_m,
+                errors.mae_yaw_deg);
+    std::printf("  abs(sum)/sqrt(N) %8.3f m %8.3f m  (warning: %s)\n", errors.published_x_m,
+                errors.published_y_m, kWarning);
+    std::printf("  NEES of the pose %8.2f (%d expected), %.1f %% inside 95 %%\n", errors.nees_mean,
+                errors.nees_expected, errors.nees_inside_95_percent);
   }
   const double all = informationOf(run);
   std::printf("  %-44s %8s %8s %8s %6s %6s\n", "sensor", "used", "refused", "aside", "NIS", "share");

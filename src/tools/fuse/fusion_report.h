@@ -7,7 +7,8 @@
 
 namespace stereo_nav::tools {
 
-/// Errors of the pose against the truth, both beginning at the same pose, and whether its covariance explains them.
+/// Errors of the pose against the truth, both beginning at the same pose, and whether its covariance explains
+/// them.
 struct PoseErrors {
   std::size_t poses = 0;  ///< with truth
   double rmse_x_m = 0.0, rmse_y_m = 0.0, rmse_yaw_deg = 0.0;
@@ -22,8 +23,8 @@ struct PoseErrors {
 /// Without truth, all zero. The pose of the start counts as exact in both.
 PoseErrors poseErrors(const FuseRun& run);
 
-/// fusion.json: errors, and for each channel what became of its measurements, its NIS, and its share of the information
-/// that the filter took in.
+/// fusion.json: errors, and for each channel what became of its measurements, its NIS, and its share of the
+/// information that the filter took in.
 std::string fusionJson(const FuseRun& run, const PoseErrors& errors);
 
 /// The same for a reader.

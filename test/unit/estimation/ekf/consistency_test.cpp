@@ -28,7 +28,8 @@ Consistency consistencyOf(SceneOptions options, unsigned runs) {
       ++count;
     }
   }
-  return {sum.mean / count, sum.inside_95 / count, std::sqrt(sum.rmse_m / count), std::sqrt(sum.rmse_rad / count)};
+  return {sum.mean / count, sum.inside_95 / count, std::sqrt(sum.rmse_m / count),
+          std::sqrt(sum.rmse_rad / count)};
 }
 
 TEST(FusionConsistency, CovariancesAreAsLargeAsTheErrors) {

@@ -17,7 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Harm {
   double largest_step_m = 0.0;  ///< of the estimate beyond the true motion, between two samples
   double largest_nees = 0.0;
-  double growth_m = 0.0;    ///< of the error, in the five seconds from one second after the fault on
+  double growth_m = 0.0;  ///< of the error, in the five seconds from one second after the fault on
   double growth_rad = 0.0;
   bool finite = true;
 };
@@ -64,7 +64,8 @@ class FusionFault : public testing::Test {
     EXPECT_TRUE(harm.finite);
     EXPECT_LE(harm.largest_step_m, 0.05);
     EXPECT_LE(harm.largest_nees, kNees9973);
-    // Three times what these sensors' errors grow by in five seconds without a fault (largest of 20 seeds: 0.022 m, 0.006 rad).
+    // Three times what these sensors' errors grow by in five seconds without a fault (largest of 20 seeds:
+    // 0.022 m, 0.006 rad).
     EXPECT_LE(harm.growth_m, 0.06);
     EXPECT_LE(harm.growth_rad, 0.02);
   }

@@ -56,8 +56,8 @@ TEST(Prediction, JacobianIsThatOfNumericDifferences) {
     layout.add(error, moved);
     predict(layout, noise, state.time_s + kStep_s, moved);
     Eigen::Matrix<double, 15, 1> numeric;
-    numeric << poseError(end.T_world_base, moved.T_world_base), moved.velocity - end.velocity, moved.rate - end.rate,
-        moved.acceleration - end.acceleration;
+    numeric << poseError(end.T_world_base, moved.T_world_base), moved.velocity - end.velocity,
+        moved.rate - end.rate, moved.acceleration - end.acceleration;
     numeric /= kSmall;
     EXPECT_LT((numeric - F.col(row).head<15>()).cwiseAbs().maxCoeff(), 1e-4) << "row " << row;
   }
@@ -69,7 +69,8 @@ TEST(Prediction, NoiseDoesNotDependOnHowTheTimeIsDivided) {
   State once = someState(layout), often = once;
   predict(layout, noise, 0.05, once);
   for (int i = 1; i <= 50; ++i) predict(layout, noise, i * 0.001, often);
-  EXPECT_LT((once.covariance - often.covariance).cwiseAbs().maxCoeff(), 2e-3 * once.covariance.cwiseAbs().maxCoeff());
+  EXPECT_LT((once.covariance - often.covariance).cwiseAbs().maxCoeff(),
+            2e-3 * once.covariance.cwiseAbs().maxCoeff());
   EXPECT_LT((once.T_world_base.translation() - often.T_world_base.translation()).norm(), 2e-5);
 }
 
@@ -129,7 +130,8 @@ TEST(Observation, JacobiansAreThoseOfNumericDifferences) {
 TEST(Observation, JacobianOfAnAnchorIsThatOfNumericDifferences) {
   const StateLayout layout(allParts());
   State state = someState(layout);
-  state.anchors[0] = state.T_world_base * expMotion((Vector6d() << 0.02, -0.01, 0.0, 0.0, 0.0, 0.01).finished());
+  state.anchors[0] =
+      state.T_world_base * expMotion((Vector6d() << 0.02, -0.01, 0.0, 0.0, 0.0, 0.01).finished());
   const std::vector<int> fields = {0, 1, 2, 3, 4, 5};
   const Innovation innovation = observeAnchor(layout, state, 0, fields, Vector6d::Ones());
   for (int i = 0; i < layout.rows(); ++i) {
@@ -164,10 +166,12 @@ TEST(Observation, AnAnchorThatMovesCarriesTheErrorOfThePoseItWasClonedFrom) {
 TEST(Correction, IsThatOfTheInformationForm) {
   const StateLayout layout(allParts());
   State state = someState(layout);
-  Innovation innovation = observe(layout, state, measurementOf(Measurement::Kind::kTwist, {0, 1, 5}), false, 9.81);
+  Innovation innovation =
+      observe(layout, state, measurementOf(Measurement::Kind::kTwist, {0, 1, 5}), false, 9.81);
   innovation.noise *= 1e-4;
   const Eigen::MatrixXd expected =
-      (state.covariance.inverse() + innovation.H.transpose() * innovation.noise.inverse() * innovation.H).inverse();
+      (state.covariance.inverse() + innovation.H.transpose() * innovation.noise.inverse() * innovation.H)
+          .inverse();
   ASSERT_TRUE(weigh(state, innovation));
   ASSERT_TRUE(correct(layout, innovation, state));
   EXPECT_LT((state.covariance - expected).cwiseAbs().maxCoeff(), 1e-12);

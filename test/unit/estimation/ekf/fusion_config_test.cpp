@@ -13,7 +13,9 @@ const char* const kWheels =
     "odom0: wheel/odom\n"
     "odom0_config: [false, false, false, false, false, false, true, true, false, false, false, true, false, false, false]\n";
 
-FusionConfig read(const std::string& text) { return readFusionConfig(YAML::Load(text), "test.yaml"); }
+FusionConfig read(const std::string& text) {
+  return readFusionConfig(YAML::Load(text), "test.yaml");
+}
 
 std::string refusal(const std::string& text) {
   try {
@@ -36,13 +38,15 @@ std::string matrix(int values) {
 }
 
 TEST(FusionConfig, ReadsAFileOfRobotLocalization) {
-  const FusionConfig config = read(std::string(kWheels) + matrix(225) +
-                                   "frequency: 50\nodom0_queue_size: 20\nodom0_twist_rejection_threshold: 3.5\n"
-                                   "print_diagnostics: true\nuse_control: false\n");
+  const FusionConfig config = read(
+      std::string(kWheels) + matrix(225) +
+      "acceleration_noise: 0.1\nfrequency: 50\nodom0_queue_size: 20\nodom0_twist_rejection_threshold: 3.5\n"
+      "print_diagnostics: true\nuse_control: false\n");
   ASSERT_EQ(config.sensors.size(), 1u);
   EXPECT_EQ(config.sensors[0].topic, "wheel/odom");
   EXPECT_EQ(config.params.frequency_hz, 50.0);
   EXPECT_EQ(config.params.filter.noise().velocity.x(), 0.5);
+  EXPECT_EQ(config.params.filter.noise().position.x(), 0.5);
   EXPECT_TRUE(config.notes.empty()) << config.notes.front();
   const FusionSetup setup = setUp(config);
   ASSERT_EQ(setup.channels.size(), 1u);
@@ -52,7 +56,9 @@ TEST(FusionConfig, ReadsAFileOfRobotLocalization) {
 
 TEST(FusionConfig, RefusesAMatrixOf255NumbersByName) {
   const std::string text = refusal(std::string(kWheels) + matrix(255));
-  EXPECT_NE(text.find("process_noise_covariance must be a list of 225 numbers, it has 255"), std::string::npos) << text;
+  EXPECT_NE(text.find("process_noise_covariance must be a list of 225 numbers, it has 255"),
+            std::string::npos)
+      << text;
 }
 
 TEST(FusionConfig, RefusesByName) {
@@ -60,13 +66,16 @@ TEST(FusionConfig, RefusesByName) {
   EXPECT_NE(refusal(std::string(kWheels) + "frequenzy: 1\n").find("frequenzy"), std::string::npos);
   EXPECT_NE(refusal("odom0: a\n").find("odom0_config is missing"), std::string::npos);
   EXPECT_NE(refusal("odom0_config: [true]\n").find("odom0 names no topic"), std::string::npos);
-  EXPECT_NE(refusal("odom0: a\nodom0_config: [true, false]\n").find("15 times true or false, it has 2"), std::string::npos);
+  EXPECT_NE(refusal("odom0: a\nodom0_config: [true, false]\n").find("15 times true or false, it has 2"),
+            std::string::npos);
   EXPECT_NE(refusal("frequency: 30\n").find("no sensor"), std::string::npos);
-  EXPECT_NE(refusal(std::string(kWheels) + "world_frame: earth\n").find("world_frame is 'earth'"), std::string::npos);
+  EXPECT_NE(refusal(std::string(kWheels) + "world_frame: earth\n").find("world_frame is 'earth'"),
+            std::string::npos);
 }
 
 TEST(FusionConfig, ExplainsWhatHasNoEqual) {
-  const FusionConfig config = read(std::string(kWheels) + "use_control: true\ndynamic_process_noise_covariance: true\n");
+  const FusionConfig config =
+      read(std::string(kWheels) + "use_control: true\ndynamic_process_noise_covariance: true\n");
   EXPECT_TRUE(noted(config, "use_control has no equal here"));
   EXPECT_TRUE(noted(config, "dynamic_process_noise_covariance has no equal here"));
 }

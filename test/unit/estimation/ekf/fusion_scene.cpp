@@ -18,13 +18,15 @@ constexpr double kReadingSigma_rad = 0.0015;
 
 Eigen::Vector3d trueTwist(double t) {
   const double begin = std::min(1.0, std::max(0.0, (t - 1.5) / 1.0));
-  return begin * Eigen::Vector3d(0.45 + 0.15 * std::sin(0.7 * t), 0.12 * std::sin(0.45 * t), 0.6 * std::sin(0.31 * t));
+  return begin * Eigen::Vector3d(0.45 + 0.15 * std::sin(0.7 * t), 0.12 * std::sin(0.45 * t),
+                                 0.6 * std::sin(0.31 * t));
 }
 
 /// An odometry that integrates the true motion with noise of a stated growth.
 class NoisyOdometry {
  public:
-  NoisyOdometry(int channel, double way_share, double turn_share) : channel_(channel), way_share_(way_share), turn_share_(turn_share) {}
+  NoisyOdometry(int channel, double way_share, double turn_share)
+      : channel_(channel), way_share_(way_share), turn_share_(turn_share) {}
 
   Measurement measure(double time_s, const Eigen::Isometry2d& T_true, std::mt19937& random) {
     std::normal_distribution<double> normal;
@@ -32,7 +34,8 @@ class NoisyOdometry {
     T_last_ = T_true;
     const double way_variance = std::pow(way_share_, 2) * motion.translation().norm() + 1e-8;
     const double turn_variance = std::pow(turn_share_, 2) * std::abs(logPlanar(motion)[2]) + 1e-9;
-    const Eigen::Vector3d noise(std::sqrt(way_variance) * normal(random), std::sqrt(way_variance) * normal(random),
+    const Eigen::Vector3d noise(std::sqrt(way_variance) * normal(random),
+                                std::sqrt(way_variance) * normal(random),
                                 std::sqrt(turn_variance) * normal(random));
     const Eigen::Matrix3d carry = adjointPlanar(motion.inverse());
     covariance_ = (carry * covariance_ * carry.transpose()).eval();
@@ -58,7 +61,8 @@ class NoisyOdometry {
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
 };
 
-Measurement wheelsOf(double time_s, const Eigen::Vector3d& twist, const Eigen::Vector3d& scale, std::mt19937& random) {
+Measurement wheelsOf(double time_s, const Eigen::Vector3d& twist, const Eigen::Vector3d& scale,
+                     std::mt19937& random) {
   std::normal_distribution<double> normal;
   Measurement measurement;
   measurement.channel = channel::kWheels;
@@ -103,7 +107,8 @@ SceneSample sampleOf(double time_s, const Eigen::Isometry2d& T_true, const Fusio
   sample.estimate = filter.estimate(time_s);
   const Eigen::Isometry2d T_estimated = planarPart(sample.estimate.T_world_base);
   sample.error << T_estimated.translation() - T_true.translation(),
-      wrapRadians(Eigen::Rotation2Dd(T_estimated.linear()).angle() - Eigen::Rotation2Dd(T_true.linear()).angle());
+      wrapRadians(Eigen::Rotation2Dd(T_estimated.linear()).angle() -
+                  Eigen::Rotation2Dd(T_true.linear()).angle());
   const Eigen::Matrix3d P = planarCovariance(sample.estimate.pose_covariance);
   sample.nees = sample.error.dot((P + 1e-12 * Eigen::Matrix3d::Identity()).ldlt().solve(sample.error));
   return sample;

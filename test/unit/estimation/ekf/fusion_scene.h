@@ -16,11 +16,11 @@ using Fault = std::function<bool(Measurement&, double& received_s)>;
 struct SceneOptions {
   unsigned seed = 1;
   double duration_s = 60.0;
-  bool stereo = true;      ///< a second odometry
-  bool gnss = false;       ///< absolute positions at 5 Hz, sigma 0.3 m
+  bool stereo = true;  ///< a second odometry
+  bool gnss = false;   ///< absolute positions at 5 Hz, sigma 0.3 m
   double gyro_bias_rad_s = 0.0026;
   Eigen::Vector3d wheel_scale{0.02, -0.07, 0.05};
-  Fault fault;             ///< asked for each measurement
+  Fault fault;  ///< asked for each measurement
 };
 
 /// Channels of the scene.
@@ -47,8 +47,8 @@ struct SceneResult {
   std::vector<ChannelStatistics> statistics;
 };
 
-/// A robot of omnidirectional wheels on a smooth course of exact truth: wheels at 50 Hz, a gyroscope at 100 Hz, a laser's
-/// and a stereo camera's odometry at 10 Hz, noise as stated by each.
+/// A robot of omnidirectional wheels on a smooth course of exact truth: wheels at 50 Hz, a gyroscope at 100
+/// Hz, a laser's and a stereo camera's odometry at 10 Hz, noise as stated by each.
 SceneResult runScene(const SceneOptions& options);
 
 /// A filter as the scene has it.
