@@ -56,6 +56,8 @@ bool positive(const Measurement& measurement) {
                                           measurement.fields[static_cast<std::size_t>(j)]);
   }
   const bool symmetric = (part - part.transpose()).cwiseAbs().maxCoeff() <= 1e-6 * part.cwiseAbs().maxCoeff();
+  if (measurement.kind == Kind::kMotion)
+    return part.allFinite() && symmetric;  // motionSince() looks at differences
   return part.allFinite() && symmetric && Eigen::LLT<Eigen::MatrixXd>(part).info() == Eigen::Success;
 }
 
@@ -70,7 +72,7 @@ class FieldCheck {
       if (usable(field)) good.push_back(field);
     }
     measurement_.fields = good;
-    if (!good.empty() && !measurement_.covariance.isZero() && !positive(measurement_)) {
+    if (!good.empty() && !positive(measurement_)) {
       const Vector6d variances = measurement_.covariance.diagonal();
       measurement_.covariance = variances.asDiagonal();
       say("covariance",
