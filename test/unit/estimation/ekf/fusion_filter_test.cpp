@@ -34,6 +34,7 @@ std::vector<Measurement> someDrive() {
   std::vector<Measurement> drive;
   for (int i = 0; i < 100; ++i) {
     drive.push_back(wheelsAt(10.0 + 0.02 * i, 0.01 * i));
+    drive.back().value[5] = 0.002 * i;
     drive.push_back(gyroAt(10.003 + 0.02 * i, 0.002 * i));
   }
   return drive;
