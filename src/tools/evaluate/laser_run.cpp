@@ -7,6 +7,7 @@
 #include "core/planar_motion.h"
 #include "odometry/laser/laser_odometry.h"
 #include "odometry/laser/motion_covariance.h"
+#include "ros/laser_feed.h"
 #include "ros/laser_recording.h"
 #include "stereo_nav/core/parameters.h"
 #include "stereo_nav/ros/topics.h"
@@ -39,31 +40,6 @@ class LaserSteps {
   std::vector<Step> steps_;
 };
 
-/// Hands wheels and gyroscope to the odometry up to the end of a scan.
-class InputFeed {
- public:
-  InputFeed(const ros_io::LaserRecording& recording, odometry::LaserOdometry& odometry)
-      : recording_(recording), odometry_(odometry) {}
-
-  void upTo(double time_s) {
-    odometry::MotionInputs& inputs = odometry_.inputs();
-    const Trajectory& wheels = recording_.wheels();
-    while (wheel_ < wheels.size() && inputs.newestWheels_s() < time_s) {
-      inputs.addWheels(wheels[wheel_].time_s, planarPart(wheels[wheel_].T_world_body));
-      ++wheel_;
-    }
-    const ros_io::MountedImu& imu = recording_.imu();
-    while (imu_ < imu.samples.size() && inputs.newestImu_s() < time_s)
-      inputs.addImu(imu.samples[imu_++], imu.R_base_imu);
-  }
-
- private:
-  const ros_io::LaserRecording& recording_;
-  odometry::LaserOdometry& odometry_;
-  std::size_t wheel_ = 0;
-  std::size_t imu_ = 0;
-};
-
 struct LaserPass {
   std::vector<eval::FrameRecord> frames;
   LaserSteps steps;
@@ -72,7 +48,7 @@ struct LaserPass {
 LaserPass laserPass(const odometry::LaserParams& params, const ros_io::LaserRecording& recording,
                     bool with_prior) {
   odometry::LaserOdometry odometry(params);
-  InputFeed feed(recording, odometry);
+  ros_io::LaserFeed feed(recording, odometry);
   LaserPass result;
   for (const odometry::LaserScan& scan : recording.scans()) {
     if (with_prior) feed.upTo(scan.time_s + scan.sweep_s());

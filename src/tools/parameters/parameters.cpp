@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/rig_file.h"
+#include "estimation/ekf/fusion_params.h"
 #include "kinematics/drive_params.h"
 #ifdef STEREO_NAV_NAVIGATION
 #include "navigation/planner/planner_params.h"
@@ -119,6 +120,17 @@ void printBase() {
   printTable(nodes::TeleopParams());
 }
 
+void printFusion() {
+  printHeading(
+      "## `ekf_localization`, node and nodelet, and `fuse`",
+      "Files of `config/fusion`, or of robot_localization ([fusion.md](fusion.md)). Beside these: `odomN`, `poseN`, `twistN`, "
+      "`imuN`, `fixN`, the topic of a sensor; `odomN_config`, 15 times true or false; `process_noise_covariance` and "
+      "`initial_estimate_covariance`, 225 numbers; `initial_state`, 15 numbers.");
+  printTable(estimation::FusionParams());
+  printHeading("### A sensor, `odomN_...`, `poseN_...`, `twistN_...`, `imuN_...`, `fixN_...`");
+  printTable(estimation::FusedSensorParams());
+}
+
 void printOdometry() {
   printHeading("## `visual_odometry`, node and nodelet");
   printTable(nodes::VisualOdometryParams());
@@ -167,6 +179,7 @@ int run(int argc, char** /*argv*/) {
   printSensors();
   printBase();
   printOdometry();
+  printFusion();
   printOthers();
   return 0;
 }

@@ -1,0 +1,195 @@
+#include "estimation/ekf/observation.h"
+
+#include <cmath>
+
+#include "core/angles.h"
+#include "core/roll_pitch_yaw.h"
+
+namespace stereo_nav::estimation {
+namespace {
+
+using namespace error_row;
+using Kind = Measurement::Kind;
+
+/// d (roll, pitch, yaw) / d phi, for an error phi about the axes of the body.
+Eigen::Matrix3d rpyJacobian(const RollPitchYaw& rpy) {
+  const double sr = std::sin(rpy.roll), cr = std::cos(rpy.roll);
+  const double cp = std::cos(rpy.pitch), tp = std::tan(rpy.pitch);
+  Eigen::Matrix3d J;
+  J << 1.0, sr * tp, cr * tp, 0.0, cr, -sr, 0.0, sr / cp, cr / cp;
+  return J;
+}
+
+/// A measurement of all six fields, before those that count are picked.
+struct Whole {
+  Vector6d residual = Vector6d::Zero();
+  Eigen::MatrixXd H;  ///< six rows, columns: the whole error
+};
+
+void observePose(const State& state, const Measurement& measurement, Whole& whole) {
+  const Eigen::Matrix3d R = state.T_world_base.linear();
+  const RollPitchYaw estimated = RollPitchYaw::of(R);
+  const RollPitchYaw measured = RollPitchYaw::of(measurement.pose.linear());
+  whole.residual.head<3>() = measurement.pose.translation() - state.T_world_base.translation();
+  whole.residual.tail<3>() << wrapRadians(measured.roll - estimated.roll),
+      wrapRadians(measured.pitch - estimated.pitch), wrapRadians(measured.yaw - estimated.yaw);
+  whole.H.block<3, 3>(0, kPosition) = R;
+  whole.H.block<3, 3>(3, kRotation) = rpyJacobian(estimated);
+}
+
+void observeTwist(const State& state, const Measurement& measurement, bool wheels, Whole& whole) {
+  whole.residual << state.velocity, state.rate;
+  whole.H.block<6, 6>(0, kVelocity).setIdentity();
+  if (wheels) {
+    const int rows[3] = {0, 1, 5};
+    for (int i = 0; i < 3; ++i) {
+      const double factor = 1.0 / (1.0 + state.wheel_scale[i]);
+      whole.residual[rows[i]] *= factor;
+      whole.H.row(rows[i]) *= factor;
+      whole.H(rows[i], kScale + i) = -factor * whole.residual[rows[i]];
+    }
+  }
+  whole.residual = (measurement.value - whole.residual).eval();
+}
+
+void observeRate(const State& state, const Measurement& measurement, Whole& whole) {
+  whole.residual.tail<3>() = measurement.value.tail<3>() - state.rate - state.gyro_bias;
+  whole.H.block<3, 3>(3, kRate).setIdentity();
+  whole.H.block<3, 3>(3, kGyroBias).setIdentity();
+}
+
+/// f = dv/dt + omega x v + omega x (omega x r) + R^T (0 0 g) + bias, the velocity being that in the body's
+/// axes.
+void observeAcceleration(const State& state, const Measurement& measurement, double gravity_m_s2,
+                         Whole& whole) {
+  const Eigen::Vector3d up =
+      state.T_world_base.linear().transpose() * Eigen::Vector3d(0.0, 0.0, gravity_m_s2);
+  const Eigen::Vector3d& r = measurement.p_base_sensor;
+  const Eigen::Vector3d at_sensor = state.velocity + state.rate.cross(r);
+  whole.residual.head<3>() = measurement.value.head<3>() - state.acceleration - state.rate.cross(at_sensor) -
+                             up - state.accelerometer_bias;
+  whole.H.block<3, 3>(0, kRotation) = hat(up);
+  whole.H.block<3, 3>(0, kVelocity) = hat(state.rate);
+  whole.H.block<3, 3>(0, kRate) = -hat(at_sensor) - hat(state.rate) * hat(r);
+  whole.H.block<3, 3>(0, kAcceleration).setIdentity();
+  whole.H.block<3, 3>(0, kAccelerometerBias).setIdentity();
+}
+
+int stateRowOf(Kind kind, int field) {
+  switch (kind) {
+    case Kind::kPose:
+    case Kind::kMotion:
+      return kPosition + field;
+    case Kind::kAcceleration:
+      return kAcceleration + field;
+    case Kind::kTwist:
+    case Kind::kRate:
+      break;
+  }
+  return kVelocity + field;
+}
+
+Innovation picked(const StateLayout& layout, const Whole& whole, const Matrix6d& covariance,
+                  const std::vector<int>& fields) {
+  const auto n = static_cast<Eigen::Index>(fields.size());
+  Innovation innovation{
+      Eigen::VectorXd(n), Eigen::MatrixXd(n, whole.H.cols()), Eigen::MatrixXd(n, n), fields, 0.0, 0.0};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int field = fields[static_cast<std::size_t>(i)];
+    innovation.residual[i] = whole.residual[field];
+    innovation.H.row(i) = whole.H.row(field);
+    for (Eigen::Index j = 0; j < n; ++j)
+      innovation.noise(i, j) = covariance(field, fields[static_cast<std::size_t>(j)]);
+  }
+  innovation.H = layout.compressed(innovation.H);
+  return innovation;
+}
+
+Eigen::Index columns(const StateLayout& layout) {
+  return kAnchors + 6 * layout.anchors();
+}
+
+}  // namespace
+
+Innovation observe(const StateLayout& layout, const State& state, const Measurement& measurement, bool wheels,
+                   double gravity_m_s2) {
+  Whole whole;
+  whole.H = Eigen::MatrixXd::Zero(6, columns(layout));
+  if (measurement.kind == Kind::kPose) observePose(state, measurement, whole);
+  if (measurement.kind == Kind::kTwist) observeTwist(state, measurement, wheels, whole);
+  if (measurement.kind == Kind::kRate) observeRate(state, measurement, whole);
+  if (measurement.kind == Kind::kAcceleration) observeAcceleration(state, measurement, gravity_m_s2, whole);
+  std::vector<int> fields;
+  for (const int field : measurement.fields) {
+    if (layout.at(stateRowOf(measurement.kind, field)) >= 0) fields.push_back(field);
+  }
+  return picked(layout, whole, measurement.covariance, fields);
+}
+
+Innovation observeAnchor(const StateLayout& layout, const State& state, int anchor,
+                         const std::vector<int>& fields, const Vector6d& variances) {
+  const int first = kAnchors + 6 * anchor;
+  const Eigen::Isometry3d T_anchor_base =
+      state.anchors[static_cast<std::size_t>(anchor)].inverse() * state.T_world_base;
+  const Eigen::Matrix3d R = T_anchor_base.linear();
+  Whole whole;
+  whole.H = Eigen::MatrixXd::Zero(6, columns(layout));
+  whole.residual << -T_anchor_base.translation(), -logRotation(R);
+  whole.H.block<3, 3>(0, kPosition) = R;
+  whole.H.block<3, 3>(3, kRotation).setIdentity();
+  whole.H.block<3, 3>(0, first) = -Eigen::Matrix3d::Identity();
+  whole.H.block<3, 3>(0, first + 3) = hat(T_anchor_base.translation());
+  whole.H.block<3, 3>(3, first + 3) = -R.transpose();
+  std::vector<int> kept;
+  for (const int field : fields) {
+    if (layout.at(first + field) >= 0) kept.push_back(field);
+  }
+  return picked(layout, whole, variances.asDiagonal(), kept);
+}
+
+Eigen::Isometry3d scaled(const Eigen::Isometry3d& motion, const Eigen::Vector3d& wheel_scale) {
+  Vector6d twist = logMotion(motion);
+  twist[0] *= 1.0 + wheel_scale[0];
+  twist[1] *= 1.0 + wheel_scale[1];
+  twist[5] *= 1.0 + wheel_scale[2];
+  return expMotion(twist);
+}
+
+void moveAnchor(const StateLayout& layout, int anchor, const Eigen::Isometry3d& motion,
+                const Matrix6d& covariance, bool wheels, State& state) {
+  const Eigen::Isometry3d corrected = wheels ? scaled(motion, state.wheel_scale) : motion;
+  const Matrix6d carried = adjoint(corrected.inverse());
+  const Vector6d twist = logMotion(motion);
+  const int first = kAnchors + 6 * anchor;
+  std::vector<int> rows;
+  for (int field = 0; field < 6; ++field) {
+    if (layout.at(first + field) >= 0) rows.push_back(field);
+  }
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  // What takes the whole error to that of the anchor after the motion.
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, layout.rows());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int field = rows[static_cast<std::size_t>(i)];
+    for (const int other : rows) L(i, layout.at(first + other)) = carried(field, other);
+    const int scale = field < 2 ? field : field == 5 ? 2 : -1;
+    if (wheels && scale >= 0 && layout.at(kScale + scale) >= 0)
+      L(i, layout.at(kScale + scale)) = twist[field];
+  }
+  const Eigen::MatrixXd across = L * state.covariance;
+  const Eigen::MatrixXd own = across * L.transpose();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int row = layout.at(first + rows[static_cast<std::size_t>(i)]);
+    state.covariance.row(row) = across.row(i);
+    state.covariance.col(row) = across.row(i).transpose();
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const int a = rows[static_cast<std::size_t>(i)], b = rows[static_cast<std::size_t>(j)];
+      state.covariance(layout.at(first + a), layout.at(first + b)) = own(i, j) + covariance(a, b);
+    }
+  }
+  Eigen::Isometry3d& T_world_anchor = state.anchors[static_cast<std::size_t>(anchor)];
+  T_world_anchor = renormalised(T_world_anchor * corrected);
+}
+
+}  // namespace stereo_nav::estimation

@@ -1,0 +1,85 @@
+#include "estimation/ekf/odometry_motion.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace stereo_nav::estimation {
+namespace {
+
+constexpr double kLeastSigma_m = 1e-4;
+constexpr double kLeastSigma_rad = 1e-5;
+constexpr double kUselessVariance = 1e5;
+
+/// From the axes of the odometry's frame to those of base_link.
+Matrix6d inBaseAxes(const Eigen::Isometry3d& T_odometry_base, const Matrix6d& covariance) {
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = T_odometry_base.linear().transpose();
+  turn.bottomRightCorner<3, 3>() = T_odometry_base.linear().transpose();
+  return turn * covariance * turn.transpose();
+}
+
+/// The nearest covariance whose variances are not below what an odometry can reach.
+Matrix6d withoutNegativeParts(const Matrix6d& difference) {
+  Vector6d least;
+  least << Eigen::Vector3d::Constant(kLeastSigma_m), Eigen::Vector3d::Constant(kLeastSigma_rad);
+  const Matrix6d scaled = least.cwiseInverse().asDiagonal() * difference * least.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(0.5 * (scaled + scaled.transpose()));
+  const Matrix6d clipped = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(1.0).asDiagonal() *
+                           eigen.eigenvectors().transpose();
+  return least.asDiagonal() * clipped * least.asDiagonal();
+}
+
+bool grows(const ChannelMemory& memory, const Measurement& measurement) {
+  for (const int field : measurement.fields) {
+    if (measurement.covariance(field, field) == memory.odometry_covariance(field, field)) return false;
+  }
+  return true;
+}
+
+/// Fields that are unknown would drown those that are known in rounding.
+Matrix6d withoutUnknown(const Matrix6d& covariance, const std::vector<int>& fields) {
+  Matrix6d known = Matrix6d::Zero();
+  for (const int i : fields) {
+    for (const int j : fields) known(i, j) = covariance(i, j);
+  }
+  return known;
+}
+
+bool usable(const Matrix6d& covariance, const std::vector<int>& fields) {
+  for (const int field : fields) {
+    const double variance = covariance(field, field);
+    if (!(variance > 0.0 && variance < kUselessVariance)) return false;
+  }
+  return covariance.allFinite();
+}
+
+Matrix6d assumed(const Eigen::Isometry3d& motion) {
+  const double way_m = 0.002 + 0.05 * motion.translation().norm();
+  const double turn_rad = 0.001 + 0.05 * logRotation(Eigen::Matrix3d(motion.linear())).norm();
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(way_m * way_m), Eigen::Vector3d::Constant(turn_rad * turn_rad);
+  return variances.asDiagonal();
+}
+
+}  // namespace
+
+OdometryMotion motionSince(const ChannelMemory& memory, const Measurement& measurement) {
+  OdometryMotion result;
+  result.motion = memory.T_odometry_base.inverse() * measurement.pose;
+  result.duration_s = measurement.time_s - memory.anchored_s;
+  if (grows(memory, measurement)) {
+    const Matrix6d carry = adjoint(result.motion.inverse());
+    const Matrix6d now =
+        inBaseAxes(measurement.pose, withoutUnknown(measurement.covariance, measurement.fields));
+    const Matrix6d then =
+        inBaseAxes(memory.T_odometry_base, withoutUnknown(memory.odometry_covariance, measurement.fields));
+    result.covariance = withoutNegativeParts(now - carry * then * carry.transpose());
+  } else if (measurement.twist_covariance && usable(*measurement.twist_covariance, measurement.fields)) {
+    result.covariance = withoutUnknown(*measurement.twist_covariance, measurement.fields) *
+                        (result.duration_s * result.duration_s);
+  } else {
+    result.covariance = assumed(result.motion);
+  }
+  return result;
+}
+
+}  // namespace stereo_nav::estimation

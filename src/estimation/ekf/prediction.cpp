@@ -1,0 +1,111 @@
+#include "estimation/ekf/prediction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stereo_nav/core/lie.h"
+
+namespace stereo_nav::estimation {
+namespace {
+
+constexpr double kLongestStep_s = 0.05;
+using CoreMatrix = Eigen::Matrix<double, error_row::kAnchors, error_row::kAnchors>;
+using CoreVector = Eigen::Matrix<double, error_row::kAnchors, 1>;
+
+/// What an acceleration that dies away adds to velocity and way after some time.
+struct Decay {
+  double left, velocity_s, way_s2;
+};
+
+Decay decayAfter(double step_s, double decay_s) {
+  const double left = std::exp(-step_s / decay_s);
+  const double velocity_s = -decay_s * std::expm1(-step_s / decay_s);
+  return {left, velocity_s, decay_s * (step_s - velocity_s)};
+}
+
+Eigen::Isometry3d motionIn(const State& state, double step_s, const Decay& decay) {
+  Vector6d twist;
+  twist << state.velocity * step_s + state.acceleration * decay.way_s2, state.rate * step_s;
+  return expMotion(twist);
+}
+
+CoreVector densities(const ProcessNoise& noise) {
+  CoreVector q;
+  q << noise.position, noise.rotation, noise.velocity, noise.rate, noise.acceleration, noise.gyro_bias,
+      noise.accelerometer_bias, noise.wheel_scale;
+  return q;
+}
+
+Eigen::MatrixXd keptTransition(const StateLayout& layout, const CoreMatrix& F) {
+  const int n = layout.coreRows();
+  Eigen::MatrixXd kept(n, n);
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i)
+      kept(i, j) = F(layout.kept()[static_cast<std::size_t>(i)], layout.kept()[static_cast<std::size_t>(j)]);
+  }
+  return kept;
+}
+
+/// Integral of F(s) Q F(s)^T over the step.
+Eigen::MatrixXd integratedNoise(const StateLayout& layout, const ProcessNoise& noise, const State& state,
+                                double step_s) {
+  const double outer = 0.5 * std::sqrt(0.6);
+  const double places[3] = {0.5 - outer, 0.5, 0.5 + outer};
+  const double weights[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+  const CoreVector whole = densities(noise);
+  const int n = layout.coreRows();
+  Eigen::VectorXd q(n);
+  for (int i = 0; i < n; ++i) q[i] = whole[layout.kept()[static_cast<std::size_t>(i)]];
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::MatrixXd F =
+        keptTransition(layout, transitionOf(state, places[i] * step_s, noise.acceleration_decay_s));
+    sum.noalias() += (F * (weights[i] * step_s * q).asDiagonal()) * F.transpose();
+  }
+  return sum;
+}
+
+void step(const StateLayout& layout, const ProcessNoise& noise, double step_s, State& state) {
+  const int n = layout.coreRows();
+  const int anchored = layout.rows() - n;
+  const Eigen::MatrixXd F = keptTransition(layout, transitionOf(state, step_s, noise.acceleration_decay_s));
+  auto core = state.covariance.topLeftCorner(n, n);
+  core = (F * core * F.transpose()).eval() + integratedNoise(layout, noise, state, step_s);
+  core = (0.5 * (core + core.transpose())).eval();
+  if (anchored > 0) {
+    state.covariance.topRightCorner(n, anchored) = (F * state.covariance.topRightCorner(n, anchored)).eval();
+    state.covariance.bottomLeftCorner(anchored, n) = state.covariance.topRightCorner(n, anchored).transpose();
+  }
+  const Decay decay = decayAfter(step_s, noise.acceleration_decay_s);
+  state.T_world_base = renormalised(state.T_world_base * motionIn(state, step_s, decay));
+  state.velocity += decay.velocity_s * state.acceleration;
+  state.acceleration *= decay.left;
+  state.time_s += step_s;
+}
+
+}  // namespace
+
+CoreMatrix transitionOf(const State& state, double step_s, double acceleration_decay_s) {
+  using namespace error_row;
+  const Decay decay = decayAfter(step_s, acceleration_decay_s);
+  CoreMatrix F = CoreMatrix::Identity();
+  F.block<6, 6>(kPosition, kPosition) = adjoint(motionIn(state, step_s, decay).inverse());
+  const Eigen::Matrix3d turning = step_s * (Eigen::Matrix3d::Identity() - 0.5 * step_s * hat(state.rate));
+  F.block<3, 3>(kPosition, kVelocity) = turning;
+  F.block<3, 3>(kRotation, kRate) = turning;
+  F.block<3, 3>(kPosition, kRate) = -0.5 * step_s * step_s * hat(state.velocity);
+  F.block<3, 3>(kPosition, kAcceleration) = decay.way_s2 * Eigen::Matrix3d::Identity();
+  F.block<3, 3>(kVelocity, kAcceleration) = decay.velocity_s * Eigen::Matrix3d::Identity();
+  F.block<3, 3>(kAcceleration, kAcceleration) = decay.left * Eigen::Matrix3d::Identity();
+  return F;
+}
+
+void predict(const StateLayout& layout, const ProcessNoise& noise, double time_s, State& state) {
+  const double duration_s = time_s - state.time_s;
+  if (duration_s <= 0.0) return;
+  const int steps = std::max(1, static_cast<int>(std::ceil(duration_s / kLongestStep_s)));
+  for (int i = 0; i < steps; ++i) step(layout, noise, duration_s / steps, state);
+  state.time_s = time_s;
+}
+
+}  // namespace stereo_nav::estimation

@@ -1,0 +1,55 @@
+#include "nodes/ekf_localization/filtered_messages.h"
+
+#include <tf2_eigen/tf2_eigen.h>
+
+namespace stereo_nav::nodes {
+namespace {
+
+void fill(const Matrix6d& covariance, boost::array<double, 36>& message) {
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
+}
+
+geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& v) {
+  geometry_msgs::Vector3 message;
+  message.x = v.x();
+  message.y = v.y();
+  message.z = v.z();
+  return message;
+}
+
+}  // namespace
+
+nav_msgs::Odometry toOdometry(const estimation::FusedEstimate& estimate,
+                              const estimation::FusionParams& params) {
+  nav_msgs::Odometry odometry;
+  odometry.header.stamp = ros::Time(estimate.time_s);
+  odometry.header.frame_id = params.world_frame;
+  odometry.child_frame_id = params.base_link_frame;
+  odometry.pose.pose = tf2::toMsg(estimate.T_world_base);
+  fill(estimate.pose_covariance, odometry.pose.covariance);
+  odometry.twist.twist.linear = toMessage(estimate.twist.head<3>());
+  odometry.twist.twist.angular = toMessage(estimate.twist.tail<3>());
+  fill(estimate.twist_covariance, odometry.twist.covariance);
+  return odometry;
+}
+
+geometry_msgs::AccelWithCovarianceStamped toAcceleration(const estimation::FusedEstimate& estimate,
+                                                         const estimation::FusionParams& params) {
+  geometry_msgs::AccelWithCovarianceStamped acceleration;
+  acceleration.header.stamp = ros::Time(estimate.time_s);
+  acceleration.header.frame_id = params.base_link_frame;
+  acceleration.accel.accel.linear = toMessage(estimate.acceleration);
+  return acceleration;
+}
+
+geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& T_parent_child,
+                                            const std::string& parent, const std::string& child,
+                                            double time_s) {
+  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(T_parent_child);
+  transform.header.stamp = ros::Time(time_s);
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  return transform;
+}
+
+}  // namespace stereo_nav::nodes

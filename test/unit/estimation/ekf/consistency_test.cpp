@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include "fusion_scene.h"
+
+namespace stereo_nav::estimation::test {
+namespace {
+
+struct Consistency {
+  double mean = 0.0;
+  double inside_95 = 0.0;
+  double rmse_m = 0.0;
+  double rmse_rad = 0.0;
+};
+
+/// Over several runs, at instants that lie seconds apart.
+Consistency consistencyOf(SceneOptions options, unsigned runs) {
+  Consistency sum;
+  int count = 0;
+  for (unsigned seed = 1; seed <= runs; ++seed) {
+    options.seed = seed;
+    const SceneResult result = runScene(options);
+    for (std::size_t i = 500; i < result.samples.size(); i += 250) {
+      const SceneSample& sample = result.samples[i];
+      sum.mean += sample.nees;
+      sum.inside_95 += sample.nees < kNees95 ? 1.0 : 0.0;
+      sum.rmse_m += sample.error.head<2>().squaredNorm();
+      sum.rmse_rad += sample.error[2] * sample.error[2];
+      ++count;
+    }
+  }
+  return {sum.mean / count, sum.inside_95 / count, std::sqrt(sum.rmse_m / count),
+          std::sqrt(sum.rmse_rad / count)};
+}
+
+TEST(FusionConsistency, CovariancesAreAsLargeAsTheErrors) {
+  SceneOptions options;
+  const Consistency consistency = consistencyOf(options, 30);
+  EXPECT_GT(consistency.mean, 2.0);
+  EXPECT_LT(consistency.mean, 4.5);
+  EXPECT_GT(consistency.inside_95, 0.85);
+}
+
+TEST(FusionConsistency, WithWheelsAndGyroscopeAndLaserAlone) {
+  SceneOptions options;
+  options.stereo = false;
+  const Consistency consistency = consistencyOf(options, 30);
+  EXPECT_GT(consistency.mean, 2.0);
+  EXPECT_LT(consistency.mean, 4.5);
+  EXPECT_GT(consistency.inside_95, 0.85);
+}
+
+TEST(FusionConsistency, PositionsFromOutsideKeepTheErrorBounded) {
+  SceneOptions options;
+  options.gnss = true;
+  const Consistency consistency = consistencyOf(options, 10);
+  EXPECT_GT(consistency.mean, 1.5);
+  EXPECT_LT(consistency.mean, 5.0);
+}
+
+}  // namespace
+}  // namespace stereo_nav::estimation::test
