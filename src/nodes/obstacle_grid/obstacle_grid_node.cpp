@@ -102,8 +102,9 @@ void ObstacleGridNode::wait(Waiting waiting) {
     return other.input == waiting.input && other.frame == waiting.frame;
   };
   if (static_cast<std::size_t>(std::count_if(waiting_.begin(), waiting_.end(), same)) >= kWaiting) {
-    waiting_.erase(std::find_if(waiting_.begin(), waiting_.end(), same));
-    ++dropped_;
+    const auto oldest = std::find_if(waiting_.begin(), waiting_.end(), same);
+    if (!use(*oldest, true)) ++dropped_;
+    waiting_.erase(oldest);
   }
   waiting_.push_back(std::move(waiting));
   useWaiting();
@@ -112,8 +113,9 @@ void ObstacleGridNode::wait(Waiting waiting) {
 void ObstacleGridNode::useWaiting() {
   const double now_s = steadyNow_s();
   for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {
-    const bool done = use(*waiting);
-    if (!done && now_s - waiting->arrival_s < params_.tf_wait_s) {
+    const bool overdue = now_s - waiting->arrival_s >= params_.tf_wait_s;
+    const bool done = use(*waiting, overdue);
+    if (!done && !overdue) {
       ++waiting;
       continue;
     }
@@ -122,7 +124,7 @@ void ObstacleGridNode::useWaiting() {
   }
 }
 
-bool ObstacleGridNode::use(const Waiting& waiting) {
+bool ObstacleGridNode::use(const Waiting& waiting, bool last_chance) {
   try {
     const auto T_base_sensor = tf_buffer_.lookupTransform(params_.base_frame, waiting.frame, waiting.stamp);
     const auto T_odom_base =
@@ -133,7 +135,7 @@ bool ObstacleGridNode::use(const Waiting& waiting) {
     clear("tf");
     clear(waiting.input);
   } catch (const tf2::TransformException& error) {
-    if (steadyNow_s() - waiting.arrival_s >= params_.tf_wait_s) {
+    if (last_chance) {
       raise(
           "tf", true,
           fmt::format(

@@ -46,7 +46,8 @@ class ObstacleGridNode {
   void handleTimer(const ros::WallTimerEvent& event);
   void wait(Waiting waiting);
   void useWaiting();
-  bool use(const Waiting& waiting);
+  /// Whether its pose is there; if not, and this was its last chance, that is said.
+  bool use(const Waiting& waiting, bool last_chance);
   void publish();
   void raise(const std::string& key, bool is_error, const std::string& text);
   void clear(const std::string& key);
