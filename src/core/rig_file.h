@@ -37,7 +37,8 @@ struct SensorMounting {
 struct Mounting {
   SensorMounting camera;  ///< the left camera as a body that looks along its x axis
   SensorMounting imu;     ///< the axes of the IMU's messages
-  SensorMounting laser;   ///< the axes of the scans: x along the scanner's own zero; roll 180 where it hangs upside down
+  SensorMounting
+      laser;  ///< the axes of the scans: x along the scanner's own zero; roll 180 where it hangs upside down
 
   void describe(ParameterVisitor& visitor);
 };
