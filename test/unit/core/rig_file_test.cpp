@@ -146,8 +146,8 @@ TEST(RigFile, UnknownSectionsAndNamesAreRefused) {
             "rig.yaml: unknown section camera; a rig has: cameras | imu | laser | range_finders | mounting | "
             "disparity | drive | wheel_odometry | uncertainty | base");
   EXPECT_NE(messageOf([] {
-              RigFile::parse("mounting: {laser: {}}", "rig.yaml").mounting();
-            }).find("rig.yaml: mounting: unknown parameter laser"),
+              RigFile::parse("mounting: {lidar: {}}", "rig.yaml").mounting();
+            }).find("rig.yaml: mounting: unknown parameter lidar"),
             std::string::npos);
   EXPECT_NE(messageOf([] { RigFile::load("/no/such/rig.yaml"); }).find("cannot be read"), std::string::npos);
 }
