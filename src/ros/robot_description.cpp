@@ -16,6 +16,9 @@ using Eigen::Isometry3d;
 using kinematics::WheelKind;
 using kinematics::WheelParams;
 
+constexpr const char* kWheelSuffix = "_wheel";
+constexpr const char* kSteeringSuffix = "_steering";
+
 geometry_msgs::TransformStamped toMessage(const std::string& parent, const std::string& child,
                                           const Isometry3d& T) {
   geometry_msgs::TransformStamped message = tf2::eigenToTransform(T);
@@ -65,15 +68,15 @@ std::string describeWheel(const WheelParams& wheel, const std::string& base_fram
   T_parent_wheel.linear() = RollPitchYaw::fromDegrees(0.0, 0.0, wheel.direction_deg).rotation();
   std::string text, parent = base_frame;
   if (wheel.kind == WheelKind::kSteered) {
-    text += jointAndLink(wheel.name + "_steering", "continuous", parent, wheel.name + "_steering",
+    text += jointAndLink(wheel.name + kSteeringSuffix, "continuous", parent, wheel.name + kSteeringSuffix,
                          T_parent_wheel, "0 0 1", "", "");
-    parent = wheel.name + "_steering";
+    parent = wheel.name + kSteeringSuffix;
     T_parent_wheel.setIdentity();
   }
   Isometry3d T_wheel_shape = Isometry3d::Identity();
   T_wheel_shape.linear() = RollPitchYaw::fromDegrees(90.0, 0.0, 0.0).rotation();
   const std::string tyre = visual(T_wheel_shape, cylinder(wheel.radius_m, 0.5 * wheel.radius_m), "dark");
-  return text + jointAndLink(wheel.name + "_wheel", "continuous", parent, wheel.name + "_wheel",
+  return text + jointAndLink(wheel.name + kWheelSuffix, "continuous", parent, wheel.name + kWheelSuffix,
                              T_parent_wheel, "0 1 0", "", tyre);
 }
 
@@ -135,13 +138,22 @@ std::string describeSensors(const RobotGeometry& robot) {
   return text;
 }
 
-void refuseSharedFrames(const std::vector<geometry_msgs::TransformStamped>& transforms) {
-  std::set<std::string> frames;
-  for (const auto& transform : transforms) {
-    if (!frames.insert(transform.child_frame_id).second)
-      throw ParameterError("two sensors have the frame '" + transform.child_frame_id +
+/// `transforms`: of the sensors. Wheels and servos have frames, too, which robot_state_publisher publishes.
+void refuseSharedFrames(const RobotGeometry& robot,
+                        const std::vector<geometry_msgs::TransformStamped>& transforms) {
+  std::vector<std::string> frames = {robot.base_frame};
+  for (const auto& wheel : robot.drive.wheels) frames.push_back(wheel.name + kWheelSuffix);
+  for (const auto& wheel : robot.drive.wheels) {
+    if (wheel.kind == WheelKind::kSteered) frames.push_back(wheel.name + kSteeringSuffix);
+  }
+  for (const auto& joint : robot.joints) frames.push_back(linkOf(joint));
+  for (const auto& transform : transforms) frames.push_back(transform.child_frame_id);
+  std::set<std::string> seen;
+  for (const std::string& frame : frames) {
+    if (!seen.insert(frame).second)
+      throw ParameterError("two parts have the frame '" + frame +
                            "', so that nobody could tell where it is; give each its own name or frame_id: "
-                           "sections base, laser and range_finders");
+                           "sections drive, base, laser and range_finders");
   }
 }
 
@@ -159,7 +171,7 @@ std::vector<geometry_msgs::TransformStamped> fixedTransforms(const RobotGeometry
   if (!robot.laser_frame.empty()) fixToBase(robot.laser_frame, robot.mounting.laser);
   for (const auto& range : robot.ranges) fixToBase(range.frame(), range.mounting);
   for (const auto& finder : robot.range_finders) fixToBase(finder.frame(), finder.mounting);
-  refuseSharedFrames(transforms);
+  refuseSharedFrames(robot, transforms);
   return transforms;
 }
 

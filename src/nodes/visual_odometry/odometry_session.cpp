@@ -125,8 +125,9 @@ bool OdometrySession::prepareCameras(const ros_io::FrameMessages& frame, const S
 
   const std::string camera_frame = ros_io::withoutSlash(frame.left->header.frame_id);
   std::string problem;
-  const auto T_base_camera =
-      lookUp(lookup_, params_.base_frame, camera_frame, frame.left_stamp, true, problem);
+  auto T_base_camera = lookUp(lookup_, params_.base_frame, camera_frame, frame.left_stamp, true, problem);
+  if (!T_base_camera)  // tf has just begun
+    T_base_camera = lookUp(lookup_, params_.base_frame, camera_frame, ros::Time(0), true, problem);
   if (!T_base_camera) {
     output.errors["camera_transform"] = problem;
     return false;
@@ -141,12 +142,16 @@ bool OdometrySession::prepareCameras(const ros_io::FrameMessages& frame, const S
   return true;
 }
 
-/// What a camera on a servo did since the odometry began, which would be taken for a motion of the base;
-/// empty while it is in its place.
+/// What a camera on a servo did since the odometry began, or may have done, which would be taken for a motion
+/// of the base; empty while it is in its place.
 std::string OdometrySession::cameraMotion(const ros::Time& stamp) const {
   std::string problem;
   const auto now = lookUp(lookup_, params_.base_frame, camera_frame_, stamp, true, problem);
-  if (!now) return {};  // tf may be gone for a while
+  if (!now)
+    return "tf does not tell where the camera " + camera_frame_ + " was against " + params_.base_frame +
+           " at the stamp of the image, and if it turns that would be taken for a motion of the base: are "
+           "joint_states and robot_state_publisher alive, and their stamps in time? " +
+           problem;
   const Eigen::Isometry3d moved = T_base_camera_.inverse() * *now;
   const double turned_rad = Eigen::AngleAxisd(moved.linear()).angle();
   if (turned_rad < kCameraTurned_rad && moved.translation().norm() < kCameraMoved_m) return {};

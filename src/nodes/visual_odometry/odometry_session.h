@@ -20,9 +20,8 @@
 
 namespace stereo_nav::nodes {
 
-/// Returns the transform that takes coordinates of `source` into `target`, at `time` (0: the newest) or,
-/// while tf does not reach as far, the newest. While tf does not know it at all, returns nothing and gives
-/// the reason in `error`.
+/// Returns the transform that takes coordinates of `source` into `target`, at `time` (0: the newest). Where
+/// tf does not know it, also after a short wait, returns nothing and gives the reason in `error`.
 using TransformLookup = std::function<std::optional<Eigen::Isometry3d>(
     const std::string& target, const std::string& source, const ros::Time& time, std::string& error)>;
 

@@ -41,7 +41,8 @@ ros_io::FrameSynchroniserParams synchroniserParams(ros_io::FrameSynchroniserPara
 }
 
 /// Waits up to 0.2 s, only once: a bag's transforms and first images arrive at the same time, and its first
-/// frame must be the origin. At the time of an image where tf has it: a servo may have turned since.
+/// frame must be the origin. At the time of an image, for which tf may be up to 0.1 s late: a servo may have
+/// turned since. What is fixed is known for any time, and nothing waits for it.
 TransformLookup lookupIn(tf2_ros::Buffer& buffer) {
   constexpr int kTries = 20;
   return [&buffer, tries_left = kTries](const std::string& target, const std::string& source,
@@ -50,10 +51,11 @@ TransformLookup lookupIn(tf2_ros::Buffer& buffer) {
     for (; tries_left > 0 && !buffer.canTransform(target, source, ros::Time(0)); --tries_left) {
       ros::WallDuration(0.01).sleep();  // the ROS clock may stand still
     }
+    const bool is_known = buffer.canTransform(target, source, ros::Time(0));
+    for (int late = 0; is_known && late < 10 && !buffer.canTransform(target, source, time); ++late)
+      ros::WallDuration(0.01).sleep();
     try {
-      const bool has_time = buffer.canTransform(target, source, time);
-      return ros_io::toIsometry(
-          buffer.lookupTransform(target, source, has_time ? time : ros::Time(0)).transform);
+      return ros_io::toIsometry(buffer.lookupTransform(target, source, time).transform);
     } catch (const tf2::TransformException& exception) {
       error = exception.what();
       return std::nullopt;

@@ -61,6 +61,7 @@ class OdometrySessionTest : public testing::Test {
   std::map<std::string, Eigen::Isometry3d> transforms_{{ros_io::frames::kLeftOptical, baseToCamera()},
                                                        {ros_io::frames::kImu, Eigen::Isometry3d::Identity()}};
   std::map<std::string, ros::Time> asked_at_;
+  ros::Time tf_reaches_{2.0 * kStart_s};
   SensorSetup setup_;
   VisualOdometryParams params_;
   OdometrySession session_{params_, odometry::OdometryConfig(),
@@ -69,6 +70,10 @@ class OdometrySessionTest : public testing::Test {
                              EXPECT_EQ(target, ros_io::frames::kBase);
                              asked_at_[source] = time;
                              const auto found = transforms_.find(source);
+                             if (time > tf_reaches_) {
+                               error = "would require extrapolation into the future";
+                               return std::nullopt;
+                             }
                              if (found != transforms_.end()) return found->second;
                              error = "not connected";
                              return std::nullopt;
@@ -112,6 +117,19 @@ TEST_F(OdometrySessionTest, RefusesACameraThatMovesAgainstTheBaseUntilItIsBack) 
       << output.errors["camera_moves"];
   EXPECT_EQ(asked_at_[ros_io::frames::kLeftOptical], ros::Time(kStart_s + 0.1)) << "the image's stamp";
   T_base_camera = baseToCamera();
+  output = process(frameAt(0.2));
+  EXPECT_TRUE(output.processed);
+  EXPECT_LT((output.base.T_odom_base.translation() - expectedPose(0.2).translation()).norm(), kTolerance_m);
+}
+
+TEST_F(OdometrySessionTest, AFrameWhoseCameraTfDoesNotKnowYetIsNoMotionOfTheBase) {
+  tf_reaches_ = ros::Time(kStart_s - 1.0);
+  ASSERT_TRUE(process(frameAt(0.0)).processed) << "tf has just begun: the mounting is the newest";
+  SessionOutput output = process(frameAt(0.1));
+  EXPECT_FALSE(output.processed);
+  EXPECT_TRUE(contains(output.errors["camera_moves"], "tf does not tell where the camera"))
+      << output.errors["camera_moves"];
+  tf_reaches_ = ros::Time(kStart_s + 1.0);
   output = process(frameAt(0.2));
   EXPECT_TRUE(output.processed);
   EXPECT_LT((output.base.T_odom_base.translation() - expectedPose(0.2).translation()).norm(), kTolerance_m);

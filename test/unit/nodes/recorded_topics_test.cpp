@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "stereo_nav/core/parameters.h"
@@ -27,6 +28,14 @@ TEST(RecordedTopics, HoldWhatTheRigFileNames) {
         "range/front", "range/left", "switch/bumper", "actuators/intake", "actuators/intake/state",
         "imu/data", "/tf_static", "/diagnostics", "odom", "tf"})
     EXPECT_EQ(names.count(topic), 1U) << topic;
+}
+
+TEST(RecordedTopics, HoldTheServoThatCarriesTheCamera) {
+  ros_io::BaseBridgeParams base;
+  readParameters(parseYaml("joints: 1\njoint_1: {name: tilt, carries_camera: true}", "base"), "base", base);
+  const auto list = recordedTopics(base, ros_io::RangeBridgeParams(), "odom,tf");
+  EXPECT_EQ(std::count(list.begin(), list.end(), "/tf"), 1) << "where the camera is";
+  EXPECT_EQ(std::count(list.begin(), list.end(), "tf"), 0) << "once";
 }
 
 }  // namespace

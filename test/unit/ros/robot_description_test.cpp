@@ -104,7 +104,20 @@ TEST(RobotDescription, TwoSensorsInOneFrameAreRefusedByName) {
     fixedTransforms(robot);
     FAIL() << "range_front is there twice";
   } catch (const ParameterError& error) {
-    EXPECT_NE(std::string(error.what()).find("two sensors have the frame 'range_front'"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("two parts have the frame 'range_front'"), std::string::npos)
+        << error.what();
+  }
+}
+
+/// robot_state_publisher would publish it, and so would rig_transforms.
+TEST(RobotDescription, AServoWhoseLinkIsASensorsFrameIsRefused) {
+  RobotGeometry robot = swerveWithServo();
+  robot.joints[0].name = "laser";
+  try {
+    fixedTransforms(robot);
+    FAIL() << "laser_link is there twice";
+  } catch (const ParameterError& error) {
+    EXPECT_NE(std::string(error.what()).find("two parts have the frame 'laser_link'"), std::string::npos)
         << error.what();
   }
 }
