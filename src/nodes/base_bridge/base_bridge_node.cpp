@@ -56,23 +56,26 @@ BaseBridgeNode::BaseBridgeNode(const ros::NodeHandle& handle, const ros::NodeHan
 /// Queues of one: only the newest order counts.
 void BaseBridgeNode::subscribe() {
   using Number = std_msgs::Float64;
+  order_topics_ = {ros_io::topics::kCmdVel};
   const auto hints = ros::TransportHints().tcpNoDelay();
   subscribers_.push_back(
       handle_.subscribe(ros_io::topics::kCmdVel, 1, &BaseBridgeNode::handleVelocity, this, hints));
   for (std::size_t i = 0; i < params_.joints.size(); ++i) {
     const std::string topic = ros_io::topics::kJoint + params_.joints[i].name;
+    order_topics_.push_back(topic);
     subscribers_.push_back(
         handle_.subscribe<Number>(topic, 1, [this, i, topic](const Number::ConstPtr& message) {
           const std::lock_guard<std::mutex> lock(mutex_);
-          handleOrder(topic, control_.setJoint(i, message->data));
+          handleOrder(topic, control_.setJoint(i, message->data, serial::steadyNow_s()));
         }));
   }
   for (std::size_t i = 0; i < params_.actuators.size(); ++i) {
     const std::string topic = ros_io::topics::kActuator + params_.actuators[i].name;
+    order_topics_.push_back(topic);
     subscribers_.push_back(
         handle_.subscribe<Number>(topic, 1, [this, i, topic](const Number::ConstPtr& message) {
           const std::lock_guard<std::mutex> lock(mutex_);
-          handleOrder(topic, control_.setActuator(i, message->data));
+          handleOrder(topic, control_.setActuator(i, message->data, serial::steadyNow_s()));
         }));
   }
 }
@@ -177,7 +180,9 @@ void BaseBridgeNode::watch(const ros::WallTimerEvent& /*event*/) {
   } else if (device.state != serial::LinkState::kWaiting) {
     raise("line", true, params_.port + ": " + device.message);
   }
-  if (!control_.obstacle(serial::steadyNow_s())) clear(ros_io::topics::kCmdVel);
+  if (!control_.obstacle(serial::steadyNow_s())) {
+    for (const std::string& topic : order_topics_) clear(topic);
+  }
   if (control_.stopped()) {
     raise("stop", false, "the base is stopped; the service base/release lets it drive again");
   } else {
@@ -231,6 +236,7 @@ void BaseBridgeNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("commands damaged at the controller", telemetry_.bad_commands);
   status.add("commands lost before the controller", telemetry_.lost_commands);
   status.add("cmd_vel refused", control_.velocitiesRefused());
+  status.add("orders to servos and actuators refused", control_.devicesRefused());
   status.add("stops because cmd_vel fell silent", control_.velocitiesTimedOut());
   status.addf("battery (V)", "%.2f", volts);
   status.add("connections", device.connections);

@@ -40,7 +40,7 @@ std::optional<std::string> BaseControl::setVelocity(const kinematics::Twist& twi
   if (!reason && !twist.allFinite())
     reason = "it holds a value that is no number; its sender is at fault, and the base stops";
   if (reason) {
-    ++refused_;
+    ++velocities_refused_;
     velocity_.reset();
     return reason;
   }
@@ -49,18 +49,25 @@ std::optional<std::string> BaseControl::setVelocity(const kinematics::Twist& twi
   return std::nullopt;
 }
 
-std::optional<std::string> BaseControl::setJoint(std::size_t joint, double angle_rad) {
-  if (!std::isfinite(angle_rad)) return "the angle is no number; its sender is at fault";
-  if (!knows_joints_)
-    return "the controller has not been heard yet, so that nobody knows where its joints are";
+/// Servos and motors obey under the conditions under which wheels do: what is ordered in a stop or without a
+/// line must not act later, by itself.
+std::optional<std::string> BaseControl::refusalOfDevice(double value, double now_s) {
+  auto reason = obstacle(now_s);
+  if (!reason && !std::isfinite(value)) reason = "it is no number; its sender is at fault";
+  if (reason) ++devices_refused_;
+  return reason;
+}
+
+std::optional<std::string> BaseControl::setJoint(std::size_t joint, double angle_rad, double now_s) {
+  if (const auto reason = refusalOfDevice(angle_rad, now_s)) return reason;
   const auto& limits = params_.joints[joint];
   joint_urad_[joint] =
       toMicroradians(kRadPerDeg * std::clamp(kDegPerRad * angle_rad, limits.min_deg, limits.max_deg));
   return std::nullopt;
 }
 
-std::optional<std::string> BaseControl::setActuator(std::size_t actuator, double level) {
-  if (!std::isfinite(level)) return "the level is no number; its sender is at fault";
+std::optional<std::string> BaseControl::setActuator(std::size_t actuator, double level, double now_s) {
+  if (const auto reason = refusalOfDevice(level, now_s)) return reason;
   actuator_permille_[actuator] = static_cast<std::int16_t>(std::lround(1e3 * std::clamp(level, -1.0, 1.0)));
   return std::nullopt;
 }
@@ -70,7 +77,7 @@ void BaseControl::stop() {
   releasing_ = false;
   order_sent_ = false;
   velocity_.reset();
-  std::fill(actuator_permille_.begin(), actuator_permille_.end(), std::int16_t{0});
+  restActuators();
 }
 
 void BaseControl::release() {
@@ -78,13 +85,20 @@ void BaseControl::release() {
   releasing_ = true;
   order_sent_ = false;
   velocity_.reset();
+  restActuators();
+  knows_joints_ = false;
+}
+
+void BaseControl::restActuators() {
+  std::fill(actuator_permille_.begin(), actuator_permille_.end(), std::int16_t{0});
 }
 
 void BaseControl::addTelemetry(const base::Telemetry& telemetry, double now_s) {
+  if (!hearsTelemetry(now_s)) restActuators();  // as the controller did; nothing starts again by itself
   telemetry_ = telemetry;
   telemetry_s_ = now_s;
   if (!knows_joints_ && fits(telemetry)) {
-    // A node that begins, or begins again, leaves the servos where they are.
+    // A node that begins, or begins again, and the end of a stop leave the servos where they are.
     std::copy(telemetry.joint_urad, telemetry.joint_urad + telemetry.joints, joint_urad_.begin());
     knows_joints_ = true;
   }
@@ -142,6 +156,7 @@ std::optional<base::Command> BaseControl::step(double now_s) {
   if (releasing_) command.flags = base::kRelease;
   if (!order_sent_) order_sequence_ = command.sequence;
   order_sent_ = true;
+  if (!hearsTelemetry(now_s)) restActuators();
   std::copy(actuator_permille_.begin(), actuator_permille_.end(), command.actuator_permille);
   const bool is_fresh = velocity_ && now_s - velocity_s_ < params_.cmd_vel_timeout_s;
   if (velocity_ && !is_fresh) {

@@ -20,12 +20,14 @@ class BaseControl {
   /// A velocity for the next cmd_vel_timeout_s. Returns why it is refused, or nothing.
   std::optional<std::string> setVelocity(const kinematics::Twist& twist, double now_s);
   /// Returns why it is refused, or nothing. The angle is limited to what the joint can do.
-  std::optional<std::string> setJoint(std::size_t joint, double angle_rad);
-  /// `level`: -1 to 1, limited to that.
-  std::optional<std::string> setActuator(std::size_t actuator, double level);
+  std::optional<std::string> setJoint(std::size_t joint, double angle_rad, double now_s);
+  /// `level`: -1 to 1, limited to that. It holds until the next one, a stop, or a loss of the telemetry.
+  std::optional<std::string> setActuator(std::size_t actuator, double level, double now_s);
 
   /// Stops, until release().
   void stop();
+  /// Nothing that was ordered before it moves anything afterwards: servos stay where the next telemetry says
+  /// that they are.
   void release();
 
   void addTelemetry(const base::Telemetry& telemetry, double now_s);
@@ -41,16 +43,20 @@ class BaseControl {
   bool stopped() const { return latched_ || releasing_; }
   /// Whether the controller has confirmed the latest stop() or release().
   bool confirmed(double now_s) const;
-  /// Why cmd_vel is refused now; nothing while it is obeyed.
+  /// Why orders are refused now; nothing while they are obeyed.
   std::optional<std::string> obstacle(double now_s) const;
   bool drives() const { return drives_; }
-  std::uint64_t velocitiesRefused() const { return refused_; }
+  std::uint64_t velocitiesRefused() const { return velocities_refused_; }
+  /// Angles of servos and levels of actuators.
+  std::uint64_t devicesRefused() const { return devices_refused_; }
   /// How often the wheels were stopped because cmd_vel fell silent while they were to turn.
   std::uint64_t velocitiesTimedOut() const { return timed_out_; }
 
  private:
   base::Command emptyCommand();
   bool hearsTelemetry(double now_s) const;
+  std::optional<std::string> refusalOfDevice(double value, double now_s);
+  void restActuators();
   void fillWheels(base::Command& command, double now_s);
 
   ros_io::BaseBridgeParams params_;
@@ -64,14 +70,14 @@ class BaseControl {
   double velocity_s_ = 0.0;
   std::vector<std::int32_t> joint_urad_;
   std::vector<std::int16_t> actuator_permille_;
-  bool knows_joints_ = false;  ///< telemetry of this base was heard
+  bool knows_joints_ = false;  ///< telemetry of this base was heard, since the latest release()
   bool latched_ = false;
   bool releasing_ = false;
   std::uint16_t order_sequence_ = 0;  ///< of the first command with the latest stop or release
   bool order_sent_ = true;
   bool drives_ = false;
   std::uint16_t sequence_ = 0;
-  std::uint64_t refused_ = 0, timed_out_ = 0;
+  std::uint64_t velocities_refused_ = 0, devices_refused_ = 0, timed_out_ = 0;
 };
 
 }  // namespace stereo_nav::nodes

@@ -68,7 +68,7 @@ class BaseControlTest : public testing::Test {
 TEST_F(BaseControlTest, SendsNothingBeforeItKnowsTheController) {
   EXPECT_FALSE(control_.step(now_s_).has_value());
   EXPECT_TRUE(refuses(control_.setVelocity({0.5, 0, 0}, now_s_), "no telemetry"));
-  EXPECT_TRUE(refuses(control_.setJoint(0, 0.1), "not been heard"));
+  EXPECT_TRUE(refuses(control_.setJoint(0, 0.1, now_s_), "no telemetry"));
   hear(Mode::kWaiting);
   ASSERT_TRUE(control_.step(now_s_).has_value());
   EXPECT_EQ(step().joint_urad[0], 123456) << "servos stay where they are";
@@ -108,7 +108,7 @@ TEST_F(BaseControlTest, AStopHoldsUntilItIsReleasedAndTheOldVelocityIsForgotten)
   run(0.02);
   control_.setVelocity({0.5, 0, 0}, now_s_);
   run(0.1);
-  control_.setActuator(0, 0.7);
+  control_.setActuator(0, 0.7, now_s_);
   control_.stop();
   EXPECT_FALSE(control_.confirmed(now_s_));
   step();
@@ -132,6 +132,48 @@ TEST_F(BaseControlTest, AStopHoldsUntilItIsReleasedAndTheOldVelocityIsForgotten)
   EXPECT_EQ(command_.flags, 0);
   EXPECT_EQ(command_.valid_ms, 0) << "what was commanded before the stop is not taken up again";
   EXPECT_FALSE(control_.setVelocity({0.5, 0, 0}, now_s_));
+}
+
+TEST_F(BaseControlTest, NothingThatWasOrderedInAStopMovesWhenItIsReleased) {
+  run(0.02);
+  ASSERT_FALSE(control_.setActuator(0, 0.7, now_s_));
+  ASSERT_FALSE(control_.setJoint(0, 0.6, now_s_));  // the stop comes before the servo has moved
+  control_.stop();
+  run(0.1, Mode::kStopped);
+  EXPECT_TRUE(refuses(control_.setActuator(0, 0.8, now_s_), "base/release"));
+  EXPECT_TRUE(refuses(control_.setJoint(0, 0.3, now_s_), "base/release"));
+  EXPECT_EQ(control_.devicesRefused(), 2U);
+  control_.release();
+  EXPECT_TRUE(refuses(control_.setActuator(0, 0.8, now_s_), "not confirmed"));
+  run(0.04, Mode::kStopped);
+  EXPECT_EQ(command_.flags, base::kRelease);
+  EXPECT_EQ(command_.actuator_permille[0], 0);
+  EXPECT_EQ(command_.joint_urad[0], 123456);
+  run(0.1, Mode::kTimedOut);
+  EXPECT_EQ(command_.actuator_permille[0], 0);
+  EXPECT_EQ(command_.joint_urad[0], 123456);
+  EXPECT_FALSE(control_.setActuator(0, 0.8, now_s_));
+  EXPECT_FALSE(control_.setJoint(0, 0.3, now_s_));
+  EXPECT_EQ(run(0.02).actuator_permille[0], 800);
+  EXPECT_EQ(command_.joint_urad[0], 300000);
+}
+
+TEST_F(BaseControlTest, NothingStartsByItselfWhenTheLineComesBack) {
+  run(0.02);
+  ASSERT_FALSE(control_.setActuator(0, 0.7, now_s_));
+  EXPECT_EQ(run(0.02).actuator_permille[0], 700);
+  now_s_ += 0.31;
+  EXPECT_EQ(step().actuator_permille[0], 0);
+  EXPECT_TRUE(refuses(control_.setActuator(0, 0.9, now_s_), "no telemetry"));
+  EXPECT_TRUE(refuses(control_.setJoint(0, 0.3, now_s_), "no telemetry"));
+  run(0.1);
+  EXPECT_EQ(command_.actuator_permille[0], 0);
+  EXPECT_EQ(command_.joint_urad[0], 123456);
+
+  ASSERT_FALSE(control_.setActuator(0, 0.7, now_s_));
+  run(0.02);
+  now_s_ += 0.31;  // and no command was made meanwhile
+  EXPECT_EQ(run(0.02).actuator_permille[0], 0);
 }
 
 TEST_F(BaseControlTest, TelemetryOfBeforeTheReleaseDoesNotConfirmIt) {
@@ -186,8 +228,8 @@ TEST_F(BaseControlTest, NumbersThatAreNoneStopTheBase) {
   control_.setVelocity({0.5, 0, 0}, now_s_);
   EXPECT_TRUE(refuses(control_.setVelocity({0.5, bad, 0}, now_s_), "no number"));
   EXPECT_EQ(run(0.02).valid_ms, 0);
-  EXPECT_TRUE(refuses(control_.setJoint(0, bad), "no number"));
-  EXPECT_TRUE(refuses(control_.setActuator(0, bad), "no number"));
+  EXPECT_TRUE(refuses(control_.setJoint(0, bad, now_s_), "no number"));
+  EXPECT_TRUE(refuses(control_.setActuator(0, bad, now_s_), "no number"));
 }
 
 TEST_F(BaseControlTest, LimitsAcceleratesAndBeginsAtRestAfterAStop) {
@@ -206,8 +248,8 @@ TEST_F(BaseControlTest, LimitsAcceleratesAndBeginsAtRestAfterAStop) {
 
 TEST_F(BaseControlTest, ServosAndActuatorsStayWithinWhatTheyCanDo) {
   run(0.02);
-  control_.setJoint(0, 2.0);
-  control_.setActuator(0, -3.0);
+  control_.setJoint(0, 2.0, now_s_);
+  control_.setActuator(0, -3.0, now_s_);
   EXPECT_NEAR(run(0.02).joint_urad[0], 1e6 * M_PI / 4, 1.0);
   EXPECT_EQ(command_.actuator_permille[0], -1000);
 }
