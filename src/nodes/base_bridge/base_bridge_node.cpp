@@ -53,7 +53,7 @@ BaseBridgeNode::BaseBridgeNode(const ros::NodeHandle& handle, const ros::NodeHan
   watch_timer_ = handle_.createWallTimer(ros::WallDuration(0.1), &BaseBridgeNode::watch, this);
 }
 
-/// Queues of one: only the newest order counts.
+/// Queues of one: only the newest order counts. Its time is taken before the mutex, behind which it may wait.
 void BaseBridgeNode::subscribe() {
   using Number = std_msgs::Float64;
   order_topics_ = {ros_io::topics::kCmdVel};
@@ -65,8 +65,9 @@ void BaseBridgeNode::subscribe() {
     order_topics_.push_back(topic);
     subscribers_.push_back(
         handle_.subscribe<Number>(topic, 1, [this, i, topic](const Number::ConstPtr& message) {
+          const double now_s = serial::steadyNow_s();
           const std::lock_guard<std::mutex> lock(mutex_);
-          handleOrder(topic, control_.setJoint(i, message->data, serial::steadyNow_s()));
+          handleOrder(topic, control_.setJoint(i, message->data, now_s));
         }));
   }
   for (std::size_t i = 0; i < params_.actuators.size(); ++i) {
@@ -74,8 +75,9 @@ void BaseBridgeNode::subscribe() {
     order_topics_.push_back(topic);
     subscribers_.push_back(
         handle_.subscribe<Number>(topic, 1, [this, i, topic](const Number::ConstPtr& message) {
+          const double now_s = serial::steadyNow_s();
           const std::lock_guard<std::mutex> lock(mutex_);
-          handleOrder(topic, control_.setActuator(i, message->data, serial::steadyNow_s()));
+          handleOrder(topic, control_.setActuator(i, message->data, now_s));
         }));
   }
 }
@@ -91,6 +93,10 @@ void BaseBridgeNode::run() {
 
 void BaseBridgeNode::sendDue() {
   const double now_s = serial::steadyNow_s();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    control_.tick(now_s);
+  }
   if (now_s < next_command_s_ && !is_urgent_.exchange(false)) return;
   const double period_s = 1.0 / params_.command_rate_hz;
   // After a pause of this program the next one is a period away: commands are never sent in a burst.
@@ -103,7 +109,7 @@ void BaseBridgeNode::handleReading(const base::BaseReading& reading) {
   bool fits = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    control_.addTelemetry(reading.telemetry, serial::steadyNow_s());
+    control_.addTelemetry(reading.telemetry, reading.arrival_s);
     telemetry_ = reading.telemetry;
     fits = control_.fits(reading.telemetry);
   }
@@ -111,10 +117,10 @@ void BaseBridgeNode::handleReading(const base::BaseReading& reading) {
 }
 
 void BaseBridgeNode::handleVelocity(const geometry_msgs::Twist::ConstPtr& message) {
+  const double now_s = serial::steadyNow_s();
   const std::lock_guard<std::mutex> lock(mutex_);
   handleOrder(ros_io::topics::kCmdVel,
-              control_.setVelocity({message->linear.x, message->linear.y, message->angular.z},
-                                   serial::steadyNow_s()));
+              control_.setVelocity({message->linear.x, message->linear.y, message->angular.z}, now_s));
 }
 
 /// The caller holds the mutex.
@@ -238,6 +244,7 @@ void BaseBridgeNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("cmd_vel refused", control_.velocitiesRefused());
   status.add("orders to servos and actuators refused", control_.devicesRefused());
   status.add("stops because cmd_vel fell silent", control_.velocitiesTimedOut());
+  status.add("pauses of this program", control_.pauses());
   status.addf("battery (V)", "%.2f", volts);
   status.add("connections", device.connections);
 }

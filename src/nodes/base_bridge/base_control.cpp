@@ -93,6 +93,12 @@ void BaseControl::restActuators() {
   std::fill(actuator_permille_.begin(), actuator_permille_.end(), std::int16_t{0});
 }
 
+void BaseControl::tick(double now_s) {
+  if (guard_.tick(now_s) == 0.0) return;
+  velocity_.reset();
+  commander_.halt();
+}
+
 void BaseControl::addTelemetry(const base::Telemetry& telemetry, double now_s) {
   if (!hearsTelemetry(now_s)) restActuators();  // as the controller did; nothing starts again by itself
   telemetry_ = telemetry;
@@ -127,6 +133,9 @@ bool BaseControl::fits(const base::Telemetry& telemetry) const {
 std::optional<std::string> BaseControl::obstacle(double now_s) const {
   if (latched_) return "the base is stopped; the service base/release lets it drive again";
   if (releasing_) return "the controller has not confirmed base/release yet";
+  if (guard_.blocks(now_s))
+    return "base_bridge stood still, so that it may have waited for longer than it shows: this computer is "
+           "overloaded or was suspended, or the program was stopped by a signal";
   if (!hearsTelemetry(now_s))
     return "no telemetry from the controller, so that nobody would see what the base does; the diagnostics say what is "
            "wrong with the line";

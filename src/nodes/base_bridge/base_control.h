@@ -8,6 +8,7 @@
 #include "kinematics/wheel_commander.h"
 #include "ros/base_bridge_params.h"
 #include "sensors/base/controller/protocol.h"
+#include "sensors/base/pause_guard.h"
 
 namespace stereo_nav::nodes {
 
@@ -30,6 +31,9 @@ class BaseControl {
   /// that they are.
   void release();
 
+  /// To be called all the time. After a pause of the program the velocity from before is forgotten, and
+  /// orders are refused until those that waited in the sockets are gone.
+  void tick(double now_s);
   void addTelemetry(const base::Telemetry& telemetry, double now_s);
   /// The next command, one every control period; nothing before the first telemetry, which tells where the
   /// joints are, unless the base is to stop.
@@ -47,6 +51,7 @@ class BaseControl {
   std::optional<std::string> obstacle(double now_s) const;
   bool drives() const { return drives_; }
   std::uint64_t velocitiesRefused() const { return velocities_refused_; }
+  std::uint64_t pauses() const { return guard_.pauses(); }
   /// Angles of servos and levels of actuators.
   std::uint64_t devicesRefused() const { return devices_refused_; }
   /// How often the wheels were stopped because cmd_vel fell silent while they were to turn.
@@ -64,6 +69,7 @@ class BaseControl {
   std::size_t wheels_;
   double period_s_;
 
+  base::PauseGuard guard_;
   std::optional<base::Telemetry> telemetry_;
   double telemetry_s_ = 0.0;
   std::optional<kinematics::Twist> velocity_;

@@ -104,6 +104,35 @@ TEST_F(BaseControlTest, RepeatedCommandsDoNotOutliveTheVelocity) {
   EXPECT_EQ(control_.velocitiesTimedOut(), 1U);
 }
 
+TEST_F(BaseControlTest, AfterAPauseOfTheProgramNeitherOldNorWaitingVelocitiesDrive) {
+  const auto runTicking = [&](double duration_s) {
+    for (const double end_s = now_s_ + duration_s - 1e-9; now_s_ < end_s;) {
+      control_.tick(now_s_ + 0.02);
+      run(0.02);
+    }
+  };
+  runTicking(0.04);
+  ASSERT_FALSE(control_.setVelocity({0.5, 0, 0}, now_s_));
+  runTicking(0.06);
+  EXPECT_GT(command_.valid_ms, 0);
+
+  now_s_ += 0.15;  // shorter than the velocity's own time
+  hear(Mode::kDriving);
+  EXPECT_TRUE(refuses(control_.setVelocity({0.5, 0, 0}, now_s_), "stood still")) << "before the loop goes on";
+  control_.tick(now_s_);
+  EXPECT_EQ(step().valid_ms, 0);
+  EXPECT_TRUE(refuses(control_.setVelocity({0.5, 0, 0}, now_s_ + 0.05), "stood still"));
+  EXPECT_TRUE(refuses(control_.setActuator(0, 0.5, now_s_ + 0.05), "stood still"));
+  runTicking(0.08);
+  EXPECT_EQ(command_.valid_ms, 0);
+  EXPECT_EQ(command_.speed_mm_per_s[0], 0);
+  runTicking(0.04);
+  EXPECT_FALSE(control_.setVelocity({1.0, 0, 0}, now_s_));
+  runTicking(0.02);
+  EXPECT_EQ(command_.speed_mm_per_s[0], 100) << "it accelerates from rest";
+  EXPECT_EQ(control_.pauses(), 1U);
+}
+
 TEST_F(BaseControlTest, AStopHoldsUntilItIsReleasedAndTheOldVelocityIsForgotten) {
   run(0.02);
   control_.setVelocity({0.5, 0, 0}, now_s_);
