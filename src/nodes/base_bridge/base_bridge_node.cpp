@@ -88,7 +88,7 @@ void BaseBridgeNode::run() {
     sendDue();
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  device_.send(control_.farewell());
+  if (const auto command = control_.farewell()) device_.send(*command);
 }
 
 void BaseBridgeNode::sendDue() {

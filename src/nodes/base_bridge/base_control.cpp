@@ -152,7 +152,7 @@ base::Command BaseControl::emptyCommand() {
   base::Command command{};
   command.sequence = sequence_++;
   command.wheels = static_cast<std::uint8_t>(wheels_);
-  command.joints = static_cast<std::uint8_t>(joint_urad_.size());
+  command.joints = static_cast<std::uint8_t>(knows_joints_ ? joint_urad_.size() : 0);
   command.actuators = static_cast<std::uint8_t>(actuator_permille_.size());
   std::copy(joint_urad_.begin(), joint_urad_.end(), command.joint_urad);
   return command;
@@ -194,7 +194,8 @@ void BaseControl::fillWheels(base::Command& command, double now_s) {
       static_cast<std::uint16_t>(std::floor(1e3 * (velocity_s_ + params_.cmd_vel_timeout_s - now_s)));
 }
 
-base::Command BaseControl::farewell() {
+std::optional<base::Command> BaseControl::farewell() {
+  if (!knows_joints_ && !latched_) return std::nullopt;
   base::Command command = emptyCommand();
   if (latched_) command.flags = base::kStop;
   return command;

@@ -38,8 +38,9 @@ class BaseControl {
   /// The next command, one every control period; nothing before the first telemetry, which tells where the
   /// joints are, unless the base is to stop.
   std::optional<base::Command> step(double now_s);
-  /// What a node that ends leaves behind: nothing moves, but nothing is latched.
-  base::Command farewell();
+  /// What a node that ends leaves behind: nothing moves, but nothing is latched. Nothing is to be sent where
+  /// it never knew what to leave.
+  std::optional<base::Command> farewell();
 
   /// Whether the controller is that of this robot, by the numbers of its wheels, joints, ....
   bool fits(const base::Telemetry& telemetry) const;
@@ -58,6 +59,7 @@ class BaseControl {
   std::uint64_t velocitiesTimedOut() const { return timed_out_; }
 
  private:
+  /// Where the joints are not known it has none, so that the controller obeys nothing in it but a stop.
   base::Command emptyCommand();
   bool hearsTelemetry(double now_s) const;
   std::optional<std::string> refusalOfDevice(double value, double now_s);

@@ -287,10 +287,22 @@ TEST_F(BaseControlTest, ItsFarewellStopsAndLatchesNothing) {
   run(0.02);
   control_.setVelocity({1.0, 0, 0}, now_s_);
   run(0.1);
-  const base::Command last = control_.farewell();
-  EXPECT_EQ(last.valid_ms, 0);
-  EXPECT_EQ(last.flags, 0);
-  EXPECT_EQ(last.joint_urad[0], command_.joint_urad[0]);
+  const auto last = control_.farewell();
+  ASSERT_TRUE(last.has_value());
+  EXPECT_EQ(last->valid_ms, 0);
+  EXPECT_EQ(last->flags, 0);
+  EXPECT_EQ(last->joints, 1);
+  EXPECT_EQ(last->joint_urad[0], command_.joint_urad[0]);
+}
+
+TEST_F(BaseControlTest, WhoDoesNotKnowTheServosDoesNotMoveThem) {
+  EXPECT_FALSE(control_.farewell().has_value());
+  control_.stop();
+  for (const auto& command : {control_.step(now_s_), control_.farewell()}) {
+    ASSERT_TRUE(command.has_value());
+    EXPECT_EQ(command->flags, base::kStop);
+    EXPECT_EQ(command->joints, 0);
+  }
 }
 
 TEST(BaseMessages, AreThoseOfTheTelemetry) {
