@@ -170,9 +170,12 @@ bool BaseBridgeNode::handleRelease(std_srvs::Trigger::Request& /*request*/,
   }
   is_urgent_ = true;
   response.success = static_cast<unsigned char>(waitForController());
-  response.message = response.success != 0
-                         ? "released: the next cmd_vel drives"
-                         : "the controller has not confirmed the release: " + device_.status().message;
+  response.message =
+      response.success != 0
+          ? "released: the next cmd_vel drives"
+          : "the controller has not confirmed the release, which takes effect when the line is "
+            "back: " +
+                device_.status().message;
   ROS_INFO_STREAM("base/release: " << response.message);
   return true;
 }

@@ -163,9 +163,12 @@ std::optional<base::Command> BaseControl::step(double now_s) {
   base::Command command = emptyCommand();
   if (latched_) command.flags = base::kStop;
   if (releasing_) command.flags = base::kRelease;
-  if (!order_sent_) order_sequence_ = command.sequence;
+  const bool hears = hearsTelemetry(now_s);
+  // Numbers are compared modulo 2^16: an order that nobody confirms for minutes must not look like a later
+  // one.
+  if (!order_sent_ || !hears) order_sequence_ = command.sequence;
   order_sent_ = true;
-  if (!hearsTelemetry(now_s)) restActuators();
+  if (!hears) restActuators();
   std::copy(actuator_permille_.begin(), actuator_permille_.end(), command.actuator_permille);
   const bool is_fresh = velocity_ && now_s - velocity_s_ < params_.cmd_vel_timeout_s;
   if (velocity_ && !is_fresh) {

@@ -81,7 +81,8 @@ class BaseControl {
   bool knows_joints_ = false;  ///< telemetry of this base was heard, since the latest release()
   bool latched_ = false;
   bool releasing_ = false;
-  std::uint16_t order_sequence_ = 0;  ///< of the first command with the latest stop or release
+  std::uint16_t order_sequence_ =
+      0;  ///< of the first command with the latest stop or release that may be heard
   bool order_sent_ = true;
   bool drives_ = false;
   std::uint16_t sequence_ = 0;

@@ -218,6 +218,29 @@ TEST_F(BaseControlTest, TelemetryOfBeforeTheReleaseDoesNotConfirmIt) {
   EXPECT_EQ(step().flags, base::kRelease);
 }
 
+TEST_F(BaseControlTest, OrdersAreConfirmedAfterALongOutage) {
+  for (const bool release : {false, true}) {
+    run(0.02, Mode::kStopped);
+    control_.stop();
+    run(0.04, Mode::kStopped);
+    if (release) control_.release();
+    for (int i = 0; i < 40000; ++i) {  // more than half of the numbers: 13 minutes
+      now_s_ += 0.02;
+      step();
+    }
+    EXPECT_FALSE(control_.confirmed(now_s_));
+    EXPECT_TRUE(control_.stopped());
+    const auto sequence = command_.sequence;
+    hear(Mode::kStopped);
+    step();
+    EXPECT_EQ(command_.flags, release ? base::kRelease : base::kStop) << sequence;
+    now_s_ += 0.02;
+    hear(release ? Mode::kTimedOut : Mode::kStopped);
+    EXPECT_TRUE(control_.confirmed(now_s_));
+    EXPECT_EQ(control_.stopped(), !release);
+  }
+}
+
 TEST_F(BaseControlTest, AStopWorksWithoutTelemetry) {
   control_.stop();
   const auto command = control_.step(now_s_);
