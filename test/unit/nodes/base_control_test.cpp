@@ -364,6 +364,7 @@ TEST(BaseMessages, RangesFollowRep117) {
   for (const std::uint16_t far : {base::kRangeNothing, std::uint16_t{12001}}) {
     EXPECT_TRUE(std::isinf(range(far)) && range(far) > 0.0F) << far;
   }
+  EXPECT_TRUE(std::isnan(range(base::kRangeUnknown)));
   EXPECT_EQ(toRange(1500, finder, ros::Time(1)).header.frame_id, "range_front");
 }
 
