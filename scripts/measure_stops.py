@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Measures how long a base drives on when something ends: its driver, base_bridge, the cable or the ROS master.
+"""Measures how long a base drives on when something ends or stands still: its driver, base_bridge, the cable, the ROS master,
+cmd_vel_mux.
 
   scripts/measure_stops.py [--trials 100] [--programs build/devel/lib/stereo_nav] [--rig test/rostest/base_rig.yaml] [--output FILE.csv]
 
 Runs a ROS master of its own, base_emulator and base_bridge. Each trial drives at --speed, lets one of them end at a random
 moment, and takes from the emulator's log when its wheels were told to stand and how far they rolled. Both are counted from the
-last cmd_vel that was published before it ended. Prints a table; the status is 1 where one trial took longer than 0.35 s, or
+last cmd_vel that was published before it ended. What is frozen goes on after a second, when the driver has long been silent: what
+waited in its sockets must not drive. Prints a table; the status is 1 where one trial took longer than 0.35 s, or
 rolled farther than v x 0.35 s + v^2/(2 a) + 2 cm.
 """
 import argparse
@@ -25,15 +27,16 @@ MARGIN_M = 0.02
 PATIENCE_S = 60.0
 RATE_HZ = 20.0
 PULLED_AFTER_S = 3.0  # after the port was opened
-CASES = ("driver stopped", "node killed", "cable pulled", "master gone")
+FROZEN = {"bridge frozen": "bridge", "mux frozen": "mux"}  # case: who is
+CASES = ("driver stopped", "node killed", "cable pulled", "master gone", *FROZEN)
 
 
-def drive(speed):
-    """The driver: publishes cmd_vel between the lines `go` and `stop` of its input, and prints when."""
+def drive(speed, topic):
+    """The driver: publishes velocities between the lines `go` and `stop` of its input, and prints when."""
     import rospy
     from geometry_msgs.msg import Twist
     rospy.init_node("driver", anonymous=True, disable_signals=True)
-    publisher = rospy.Publisher("cmd_vel", Twist, queue_size=1, tcp_nodelay=True)
+    publisher = rospy.Publisher(topic, Twist, queue_size=1, tcp_nodelay=True)
     message = Twist()
     message.linear.x = speed
     os.set_blocking(sys.stdin.fileno(), False)
@@ -89,11 +92,12 @@ def wait_for(condition, what):
 
 
 class Graph:
-    """Master, emulator, bridge and driver, each of which can end and come again."""
+    """Master, emulator, bridge, driver and, in its case, cmd_vel_mux, each of which can end and come again."""
 
-    def __init__(self, options, folder):
+    def __init__(self, options, folder, with_mux):
         self.options = options
         self.folder = folder
+        self.with_mux = with_mux
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
@@ -134,8 +138,12 @@ class Graph:
                               "_config:=" + os.path.join(self.options.source, "config/base.yaml"),
                               "_port:=" + self.serial, "_retry_s:=0.1"])
 
+    def start_mux(self):
+        self.start("mux", [os.path.join(self.programs, "cmd_vel_mux"), "_rig:=" + self.options.rig])
+
     def start_driver(self):
-        self.start("driver", [sys.executable, os.path.abspath(__file__), "--drive", "--speed", str(self.options.speed)],
+        topic = "cmd_vel_auto" if self.with_mux else "cmd_vel"
+        self.start("driver", [sys.executable, os.path.abspath(__file__), "--drive", topic, "--speed", str(self.options.speed)],
                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.processes["driver"].stdout.readline()
 
@@ -167,12 +175,26 @@ class Graph:
 def prepare(graph, case):
     """Brings the graph up for a trial, as far as it is not."""
     pull = ("--wait-for-reader", "--unplug-at", str(PULLED_AFTER_S), "--unplug-for", "1000") if case == "cable pulled" else ()
-    for name, start in (("master", graph.start_master), ("emulator", lambda: graph.start_emulator(pull)), ("bridge", graph.start_bridge),
-                        ("driver", graph.start_driver)):
+    starts = {"master": graph.start_master, "emulator": lambda: graph.start_emulator(pull), "bridge": graph.start_bridge}
+    if graph.with_mux:
+        starts["mux"] = graph.start_mux
+    for name, start in {**starts, "driver": graph.start_driver}.items():
         if name not in graph.processes:
             start()
     graph.drive_at_speed()
     time.sleep(random.uniform(0.3, 0.4))  # it no longer accelerates
+
+
+def freeze(process, graph):
+    """Lets it stand still while the driver falls silent, and go on; returns when that began."""
+    process.send_signal(signal.SIGSTOP)
+    frozen_s = time.monotonic()
+    time.sleep(0.2)  # some velocities wait in its socket
+    graph.tell_driver("stop")
+    time.sleep(0.8)
+    process.send_signal(signal.SIGCONT)
+    time.sleep(0.5)  # in which it might drive
+    return frozen_s
 
 
 def let_end(graph, case):
@@ -180,6 +202,8 @@ def let_end(graph, case):
     if case == "driver stopped":
         graph.tell_driver("stop")
         return None
+    if case in FROZEN:
+        return freeze(graph.processes[FROZEN[case]], graph)
     if case == "node killed":
         graph.end("bridge")
         return time.monotonic()
@@ -234,18 +258,18 @@ def main():
     parser.add_argument("--speed", type=float, default=0.9, help="m/s")
     parser.add_argument("--case", choices=CASES, action="append", help="only these")
     parser.add_argument("--output", help="CSV file of all trials")
-    parser.add_argument("--drive", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--drive", metavar="TOPIC", help=argparse.SUPPRESS)
     options = parser.parse_args()
     options.source = source
     if options.drive:
-        return drive(options.speed)
+        return drive(options.speed, options.drive)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # and end what was started
     good = True
     lines = []
     print("| what ended | trials | to zero: median, worst (s) | rolled: median, worst (m) | allowed (m) |\n|---|---|---|---|---|")
     for case in options.case or CASES:
         with tempfile.TemporaryDirectory() as folder:
-            graph = Graph(options, folder)
+            graph = Graph(options, folder, case == "mux frozen")
             try:
                 results = [trial(graph, case) for _ in range(options.trials)]
             finally:

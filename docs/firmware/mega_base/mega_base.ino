@@ -22,6 +22,7 @@
 #include <util/atomic.h>
 
 #include "src/base_controller.h"
+#include "src/tfmini.h"
 
 using namespace stereo_nav::base;
 
@@ -45,8 +46,7 @@ static const SpeedLoopGains kGains = {0.5F, 0.05F, 1.5F, 3.0F, 10.0F};
 static const SteeringLoopGains kSteeringGains = {15.0F, 8.0F, 0.008F, {0.083F, 0.05F, 0.1F, 2.0F, 10.0F}};
 static const float kServoMicroradPerTick = 785.4F;  // of 0.5 us; 90 degrees for 1 ms
 static const float kBatteryMillivoltsPerCount = 5000.0F / 1024.0F * 4.3F;
-static const uint16_t kRangeMin_mm = 100, kRangeMax_mm = 12000;  // TFmini Plus
-static const uint16_t kRangeMinStrength = 100;
+static const TfminiLimits kRangeLimits = {100, 12000, 100};  // TFmini Plus: mm, mm, least strength
 // -----------------------------------------------------------------------------------------------------------------------------
 
 static const uint16_t kPwmTop = 400;      // 16 MHz / 2 / 400 = 20 kHz
@@ -91,35 +91,10 @@ ISR(USART0_UDRE_vect) {
   }
 }
 
-// A TFmini: 0x59 0x59, distance in cm, strength, temperature, sum; 100 frames a second at 115200 baud.
-struct Tfmini {
-  uint8_t frame[9];
-  uint8_t size;
-  volatile uint16_t distance_mm;
+static Tfmini finders[kRanges] = {Tfmini(kRangeLimits), Tfmini(kRangeLimits)};
 
-  void receive(uint8_t byte) {
-    if (size < 2 && byte != 0x59) {
-      size = 0;
-      return;
-    }
-    frame[size++] = byte;
-    if (size < sizeof frame) return;
-    size = 0;
-    uint8_t sum = 0;
-    for (uint8_t i = 0; i < 8; ++i) sum = static_cast<uint8_t>(sum + frame[i]);
-    if (sum != frame[8]) return;
-    const uint16_t cm = static_cast<uint16_t>(frame[2] | (frame[3] << 8));
-    const uint16_t mm = cm > kRangeMax_mm / 10 ? kRangeNothing : static_cast<uint16_t>(10 * cm);
-    const uint16_t strength = static_cast<uint16_t>(frame[4] | (frame[5] << 8));
-    distance_mm = strength < kRangeMinStrength || strength == 0xFFFF ? kRangeNothing
-                  : mm < kRangeMin_mm                                                      ? kRangeTooNear
-                                                                                           : mm;
-  }
-};
-static Tfmini finders[kRanges];
-
-ISR(USART2_RX_vect) { finders[0].receive(UDR2); }
-ISR(USART3_RX_vect) { finders[1].receive(UDR3); }
+ISR(USART2_RX_vect) { finders[0].receive(UDR2, milliseconds); }
+ISR(USART3_RX_vect) { finders[1].receive(UDR3, milliseconds); }
 
 // The battery on A0 and the steering sensors on A1 to A4, in turn: each every 0.5 ms.
 static const uint8_t kAnalogInputs = 1 + kWheels;
@@ -165,7 +140,7 @@ static ControllerInputs measure() {
   uint16_t read[kAnalogInputs];
   ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
     for (uint8_t i = 0; i < kWheels; ++i) inputs.pulses[i] = pulses[i];
-    for (uint8_t i = 0; i < kRanges; ++i) inputs.range_mm[i] = finders[i].distance_mm;
+    for (uint8_t i = 0; i < kRanges; ++i) inputs.range_mm[i] = finders[i].range_mm(milliseconds);
     for (uint8_t i = 0; i < kAnalogInputs; ++i) read[i] = analog[i];
   }
   for (uint8_t i = 0; i < kWheels; ++i) inputs.steering_urad[i] = steeringAngle(i, read[1 + i]);
@@ -260,7 +235,6 @@ static void setUpPins() {
 
 void setup() {
   cli();
-  for (uint8_t i = 0; i < kRanges; ++i) finders[i].distance_mm = kRangeNothing;
   setUpPins();
   setUpTimers();
   setUpSerial();

@@ -53,26 +53,31 @@ BaseBridgeNode::BaseBridgeNode(const ros::NodeHandle& handle, const ros::NodeHan
   watch_timer_ = handle_.createWallTimer(ros::WallDuration(0.1), &BaseBridgeNode::watch, this);
 }
 
-/// Queues of one: only the newest order counts.
+/// Queues of one: only the newest order counts. Its time is taken before the mutex, behind which it may wait.
 void BaseBridgeNode::subscribe() {
   using Number = std_msgs::Float64;
+  order_topics_ = {ros_io::topics::kCmdVel};
   const auto hints = ros::TransportHints().tcpNoDelay();
   subscribers_.push_back(
       handle_.subscribe(ros_io::topics::kCmdVel, 1, &BaseBridgeNode::handleVelocity, this, hints));
   for (std::size_t i = 0; i < params_.joints.size(); ++i) {
     const std::string topic = ros_io::topics::kJoint + params_.joints[i].name;
+    order_topics_.push_back(topic);
     subscribers_.push_back(
         handle_.subscribe<Number>(topic, 1, [this, i, topic](const Number::ConstPtr& message) {
+          const double now_s = serial::steadyNow_s();
           const std::lock_guard<std::mutex> lock(mutex_);
-          handleOrder(topic, control_.setJoint(i, message->data));
+          handleOrder(topic, control_.setJoint(i, message->data, now_s));
         }));
   }
   for (std::size_t i = 0; i < params_.actuators.size(); ++i) {
     const std::string topic = ros_io::topics::kActuator + params_.actuators[i].name;
+    order_topics_.push_back(topic);
     subscribers_.push_back(
         handle_.subscribe<Number>(topic, 1, [this, i, topic](const Number::ConstPtr& message) {
+          const double now_s = serial::steadyNow_s();
           const std::lock_guard<std::mutex> lock(mutex_);
-          handleOrder(topic, control_.setActuator(i, message->data));
+          handleOrder(topic, control_.setActuator(i, message->data, now_s));
         }));
   }
 }
@@ -83,11 +88,15 @@ void BaseBridgeNode::run() {
     sendDue();
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  device_.send(control_.farewell());
+  if (const auto command = control_.farewell()) device_.send(*command);
 }
 
 void BaseBridgeNode::sendDue() {
   const double now_s = serial::steadyNow_s();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    control_.tick(now_s);
+  }
   if (now_s < next_command_s_ && !is_urgent_.exchange(false)) return;
   const double period_s = 1.0 / params_.command_rate_hz;
   // After a pause of this program the next one is a period away: commands are never sent in a burst.
@@ -100,7 +109,7 @@ void BaseBridgeNode::handleReading(const base::BaseReading& reading) {
   bool fits = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    control_.addTelemetry(reading.telemetry, serial::steadyNow_s());
+    control_.addTelemetry(reading.telemetry, reading.arrival_s);
     telemetry_ = reading.telemetry;
     fits = control_.fits(reading.telemetry);
   }
@@ -108,10 +117,10 @@ void BaseBridgeNode::handleReading(const base::BaseReading& reading) {
 }
 
 void BaseBridgeNode::handleVelocity(const geometry_msgs::Twist::ConstPtr& message) {
+  const double now_s = serial::steadyNow_s();
   const std::lock_guard<std::mutex> lock(mutex_);
   handleOrder(ros_io::topics::kCmdVel,
-              control_.setVelocity({message->linear.x, message->linear.y, message->angular.z},
-                                   serial::steadyNow_s()));
+              control_.setVelocity({message->linear.x, message->linear.y, message->angular.z}, now_s));
 }
 
 /// The caller holds the mutex.
@@ -161,9 +170,12 @@ bool BaseBridgeNode::handleRelease(std_srvs::Trigger::Request& /*request*/,
   }
   is_urgent_ = true;
   response.success = static_cast<unsigned char>(waitForController());
-  response.message = response.success != 0
-                         ? "released: the next cmd_vel drives"
-                         : "the controller has not confirmed the release: " + device_.status().message;
+  response.message =
+      response.success != 0
+          ? "released: the next cmd_vel drives"
+          : "the controller has not confirmed the release, which takes effect when the line is "
+            "back: " +
+                device_.status().message;
   ROS_INFO_STREAM("base/release: " << response.message);
   return true;
 }
@@ -177,7 +189,9 @@ void BaseBridgeNode::watch(const ros::WallTimerEvent& /*event*/) {
   } else if (device.state != serial::LinkState::kWaiting) {
     raise("line", true, params_.port + ": " + device.message);
   }
-  if (!control_.obstacle(serial::steadyNow_s())) clear(ros_io::topics::kCmdVel);
+  if (!control_.obstacle(serial::steadyNow_s())) {
+    for (const std::string& topic : order_topics_) clear(topic);
+  }
   if (control_.stopped()) {
     raise("stop", false, "the base is stopped; the service base/release lets it drive again");
   } else {
@@ -231,7 +245,9 @@ void BaseBridgeNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("commands damaged at the controller", telemetry_.bad_commands);
   status.add("commands lost before the controller", telemetry_.lost_commands);
   status.add("cmd_vel refused", control_.velocitiesRefused());
+  status.add("orders to servos and actuators refused", control_.devicesRefused());
   status.add("stops because cmd_vel fell silent", control_.velocitiesTimedOut());
+  status.add("pauses of this program", control_.pauses());
   status.addf("battery (V)", "%.2f", volts);
   status.add("connections", device.connections);
 }

@@ -50,6 +50,7 @@ class BaseBridgeNode {
   base::BaseDevice device_;
   BasePublishers publishers_;
   std::vector<ros::Subscriber> subscribers_;
+  std::vector<std::string> order_topics_;  ///< of cmd_vel, joints and actuators
   ros::ServiceServer stop_, release_;
   diagnostic_updater::Updater updater_;
   ros::WallTimer watch_timer_;

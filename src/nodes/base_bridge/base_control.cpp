@@ -40,7 +40,7 @@ std::optional<std::string> BaseControl::setVelocity(const kinematics::Twist& twi
   if (!reason && !twist.allFinite())
     reason = "it holds a value that is no number; its sender is at fault, and the base stops";
   if (reason) {
-    ++refused_;
+    ++velocities_refused_;
     velocity_.reset();
     return reason;
   }
@@ -49,18 +49,25 @@ std::optional<std::string> BaseControl::setVelocity(const kinematics::Twist& twi
   return std::nullopt;
 }
 
-std::optional<std::string> BaseControl::setJoint(std::size_t joint, double angle_rad) {
-  if (!std::isfinite(angle_rad)) return "the angle is no number; its sender is at fault";
-  if (!knows_joints_)
-    return "the controller has not been heard yet, so that nobody knows where its joints are";
+/// Servos and motors obey under the conditions under which wheels do: what is ordered in a stop or without a
+/// line must not act later, by itself.
+std::optional<std::string> BaseControl::refusalOfDevice(double value, double now_s) {
+  auto reason = obstacle(now_s);
+  if (!reason && !std::isfinite(value)) reason = "it is no number; its sender is at fault";
+  if (reason) ++devices_refused_;
+  return reason;
+}
+
+std::optional<std::string> BaseControl::setJoint(std::size_t joint, double angle_rad, double now_s) {
+  if (const auto reason = refusalOfDevice(angle_rad, now_s)) return reason;
   const auto& limits = params_.joints[joint];
   joint_urad_[joint] =
       toMicroradians(kRadPerDeg * std::clamp(kDegPerRad * angle_rad, limits.min_deg, limits.max_deg));
   return std::nullopt;
 }
 
-std::optional<std::string> BaseControl::setActuator(std::size_t actuator, double level) {
-  if (!std::isfinite(level)) return "the level is no number; its sender is at fault";
+std::optional<std::string> BaseControl::setActuator(std::size_t actuator, double level, double now_s) {
+  if (const auto reason = refusalOfDevice(level, now_s)) return reason;
   actuator_permille_[actuator] = static_cast<std::int16_t>(std::lround(1e3 * std::clamp(level, -1.0, 1.0)));
   return std::nullopt;
 }
@@ -70,7 +77,7 @@ void BaseControl::stop() {
   releasing_ = false;
   order_sent_ = false;
   velocity_.reset();
-  std::fill(actuator_permille_.begin(), actuator_permille_.end(), std::int16_t{0});
+  restActuators();
 }
 
 void BaseControl::release() {
@@ -78,13 +85,26 @@ void BaseControl::release() {
   releasing_ = true;
   order_sent_ = false;
   velocity_.reset();
+  restActuators();
+  knows_joints_ = false;
+}
+
+void BaseControl::restActuators() {
+  std::fill(actuator_permille_.begin(), actuator_permille_.end(), std::int16_t{0});
+}
+
+void BaseControl::tick(double now_s) {
+  if (guard_.tick(now_s) == 0.0) return;
+  velocity_.reset();
+  commander_.halt();
 }
 
 void BaseControl::addTelemetry(const base::Telemetry& telemetry, double now_s) {
+  if (!hearsTelemetry(now_s)) restActuators();  // as the controller did; nothing starts again by itself
   telemetry_ = telemetry;
   telemetry_s_ = now_s;
   if (!knows_joints_ && fits(telemetry)) {
-    // A node that begins, or begins again, leaves the servos where they are.
+    // A node that begins, or begins again, and the end of a stop leave the servos where they are.
     std::copy(telemetry.joint_urad, telemetry.joint_urad + telemetry.joints, joint_urad_.begin());
     knows_joints_ = true;
   }
@@ -113,6 +133,9 @@ bool BaseControl::fits(const base::Telemetry& telemetry) const {
 std::optional<std::string> BaseControl::obstacle(double now_s) const {
   if (latched_) return "the base is stopped; the service base/release lets it drive again";
   if (releasing_) return "the controller has not confirmed base/release yet";
+  if (guard_.blocks(now_s))
+    return "base_bridge stood still, so that it may have waited for longer than it shows: this computer is "
+           "overloaded or was suspended, or the program was stopped by a signal";
   if (!hearsTelemetry(now_s))
     return "no telemetry from the controller, so that nobody would see what the base does; the diagnostics say what is "
            "wrong with the line";
@@ -129,7 +152,7 @@ base::Command BaseControl::emptyCommand() {
   base::Command command{};
   command.sequence = sequence_++;
   command.wheels = static_cast<std::uint8_t>(wheels_);
-  command.joints = static_cast<std::uint8_t>(joint_urad_.size());
+  command.joints = static_cast<std::uint8_t>(knows_joints_ ? joint_urad_.size() : 0);
   command.actuators = static_cast<std::uint8_t>(actuator_permille_.size());
   std::copy(joint_urad_.begin(), joint_urad_.end(), command.joint_urad);
   return command;
@@ -140,8 +163,12 @@ std::optional<base::Command> BaseControl::step(double now_s) {
   base::Command command = emptyCommand();
   if (latched_) command.flags = base::kStop;
   if (releasing_) command.flags = base::kRelease;
-  if (!order_sent_) order_sequence_ = command.sequence;
+  const bool hears = hearsTelemetry(now_s);
+  // Numbers are compared modulo 2^16: an order that nobody confirms for minutes must not look like a later
+  // one.
+  if (!order_sent_ || !hears) order_sequence_ = command.sequence;
   order_sent_ = true;
+  if (!hears) restActuators();
   std::copy(actuator_permille_.begin(), actuator_permille_.end(), command.actuator_permille);
   const bool is_fresh = velocity_ && now_s - velocity_s_ < params_.cmd_vel_timeout_s;
   if (velocity_ && !is_fresh) {
@@ -170,7 +197,8 @@ void BaseControl::fillWheels(base::Command& command, double now_s) {
       static_cast<std::uint16_t>(std::floor(1e3 * (velocity_s_ + params_.cmd_vel_timeout_s - now_s)));
 }
 
-base::Command BaseControl::farewell() {
+std::optional<base::Command> BaseControl::farewell() {
+  if (!knows_joints_ && !latched_) return std::nullopt;
   base::Command command = emptyCommand();
   if (latched_) command.flags = base::kStop;
   return command;

@@ -56,6 +56,7 @@ sensor_msgs::Range toRange(std::uint16_t range_mm, const ros_io::BaseRangeParams
   message.range = 1e-3F * static_cast<float>(range_mm);
   if (range_mm == base::kRangeTooNear || message.range < message.min_range) message.range = -kInfinity;
   if (range_mm == base::kRangeNothing || message.range > message.max_range) message.range = kInfinity;
+  if (range_mm == base::kRangeUnknown) message.range = std::numeric_limits<float>::quiet_NaN();
   return message;
 }
 

@@ -19,7 +19,8 @@ WheelTicks toWheelTicks(const base::Telemetry& telemetry, const kinematics::Driv
 sensor_msgs::JointState toJointState(const base::Telemetry& telemetry, const kinematics::DriveParams& drive,
                                      const ros_io::BaseBridgeParams& params, ros::Time stamp);
 
-/// By REP-117: -infinity is too near, +infinity is nothing within the range.
+/// By REP-117: -infinity is too near, +infinity is nothing within the range, NaN is not
+/// measured.
 sensor_msgs::Range toRange(std::uint16_t range_mm, const ros_io::BaseRangeParams& finder, ros::Time stamp);
 
 sensor_msgs::BatteryState toBatteryState(std::uint16_t battery_mV, const ros_io::BaseBridgeParams& params,

@@ -9,13 +9,12 @@ namespace {
 
 using serial::steadyNow_s;
 
-constexpr std::size_t kStopSource = 0;
 constexpr double kWatch_s = 0.02;
 
 std::vector<VelocitySource> readSources(const ros::NodeHandle& private_handle) {
   CmdVelMuxParams params;
   ros_io::readParameters({ros_io::serverSource(private_handle, {"diagnostic_period"})}, params);
-  return {{ros_io::topics::kCmdVelStop, params.stop_timeout_s},
+  return {{ros_io::topics::kCmdVelStop, params.stop_timeout_s, true},
           {ros_io::topics::kCmdVelManual, params.manual_timeout_s},
           {ros_io::topics::kCmdVelAuto, params.auto_timeout_s}};
 }
@@ -50,11 +49,17 @@ void CmdVelMuxNode::handle(std::size_t source, const geometry_msgs::Twist& messa
   if (!mux_.offer(source, steadyNow_s())) return;
   if (active_ != source) ROS_INFO_STREAM("cmd_vel follows " << mux_.sources()[source].topic);
   active_ = source;
-  publisher_.publish(source == kStopSource ? geometry_msgs::Twist() : message);
+  publisher_.publish(mux_.sources()[source].stops ? geometry_msgs::Twist() : message);
 }
 
 void CmdVelMuxNode::watch(const ros::WallTimerEvent& /*event*/) {
   updater_.update();
+  if (const double pause_s = mux_.tick(steadyNow_s()); pause_s > 0.0) {
+    ROS_WARN(
+        "cmd_vel_mux stood still for %.1f s: cmd_vel is zero, and what waited meanwhile is dropped; this computer "
+        "is overloaded or was suspended, or the program was stopped by a signal",
+        pause_s);
+  }
   if (!active_ || mux_.active(steadyNow_s()) == active_) return;
   ROS_INFO_STREAM(mux_.sources()[*active_].topic
                   << " has fallen silent: cmd_vel is zero until another one begins");

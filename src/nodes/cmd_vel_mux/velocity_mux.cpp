@@ -10,9 +10,19 @@ VelocityMux::VelocityMux(std::vector<VelocitySource> sources)
       dropped_(sources_.size()),
       passed_(sources_.size()) {}
 
+double VelocityMux::tick(double now_s) {
+  const double pause_s = guard_.tick(now_s);
+  if (pause_s > 0.0) {
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+      if (!sources_[i].stops) heard_s_[i].reset();
+  }
+  return pause_s;
+}
+
 bool VelocityMux::offer(std::size_t source, double now_s) {
-  heard_s_[source] = now_s;
-  const bool passes = active(now_s) == source;
+  const bool believed = sources_[source].stops || !guard_.blocks(now_s);
+  if (believed) heard_s_[source] = now_s;
+  const bool passes = believed && active(now_s) == source;
   ++(passes ? passed_ : dropped_)[source];
   return passes;
 }

@@ -4,12 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "sensors/base/pause_guard.h"
+
 namespace stereo_nav::nodes {
 
 /// One of several senders of velocities.
 struct VelocitySource {
   std::string topic;
   double timeout_s = 0.5;  ///< for how long a message keeps those of lower rank out
+  bool stops = false;      ///< its messages stop the base, whatever they hold
 };
 
 /// Decides whose velocity passes: that of the first source in the list that was heard within its time-out.
@@ -20,6 +23,10 @@ class VelocityMux {
   /// In the order of their rank.
   explicit VelocityMux(std::vector<VelocitySource> sources);
 
+  /// To be called all the time. Returns for how long the program stood still, 0 where it did not. After such
+  /// a pause nobody has the word, and for a moment nothing passes but stops: what waited in the sockets is
+  /// old.
+  double tick(double now_s);
   /// A message of a source; returns whether it passes.
   bool offer(std::size_t source, double now_s);
   /// The source that has the word; nothing while all are silent.
@@ -30,6 +37,7 @@ class VelocityMux {
   std::size_t passed(std::size_t source) const { return passed_[source]; }
 
  private:
+  base::PauseGuard guard_;
   std::vector<VelocitySource> sources_;
   std::vector<std::optional<double>> heard_s_;
   std::vector<std::size_t> dropped_, passed_;

@@ -68,7 +68,7 @@ class BaseControlTest : public testing::Test {
 TEST_F(BaseControlTest, SendsNothingBeforeItKnowsTheController) {
   EXPECT_FALSE(control_.step(now_s_).has_value());
   EXPECT_TRUE(refuses(control_.setVelocity({0.5, 0, 0}, now_s_), "no telemetry"));
-  EXPECT_TRUE(refuses(control_.setJoint(0, 0.1), "not been heard"));
+  EXPECT_TRUE(refuses(control_.setJoint(0, 0.1, now_s_), "no telemetry"));
   hear(Mode::kWaiting);
   ASSERT_TRUE(control_.step(now_s_).has_value());
   EXPECT_EQ(step().joint_urad[0], 123456) << "servos stay where they are";
@@ -104,11 +104,40 @@ TEST_F(BaseControlTest, RepeatedCommandsDoNotOutliveTheVelocity) {
   EXPECT_EQ(control_.velocitiesTimedOut(), 1U);
 }
 
+TEST_F(BaseControlTest, AfterAPauseOfTheProgramNeitherOldNorWaitingVelocitiesDrive) {
+  const auto runTicking = [&](double duration_s) {
+    for (const double end_s = now_s_ + duration_s - 1e-9; now_s_ < end_s;) {
+      control_.tick(now_s_ + 0.02);
+      run(0.02);
+    }
+  };
+  runTicking(0.04);
+  ASSERT_FALSE(control_.setVelocity({0.5, 0, 0}, now_s_));
+  runTicking(0.06);
+  EXPECT_GT(command_.valid_ms, 0);
+
+  now_s_ += 0.15;  // shorter than the velocity's own time
+  hear(Mode::kDriving);
+  EXPECT_TRUE(refuses(control_.setVelocity({0.5, 0, 0}, now_s_), "stood still")) << "before the loop goes on";
+  control_.tick(now_s_);
+  EXPECT_EQ(step().valid_ms, 0);
+  EXPECT_TRUE(refuses(control_.setVelocity({0.5, 0, 0}, now_s_ + 0.05), "stood still"));
+  EXPECT_TRUE(refuses(control_.setActuator(0, 0.5, now_s_ + 0.05), "stood still"));
+  runTicking(0.08);
+  EXPECT_EQ(command_.valid_ms, 0);
+  EXPECT_EQ(command_.speed_mm_per_s[0], 0);
+  runTicking(0.04);
+  EXPECT_FALSE(control_.setVelocity({1.0, 0, 0}, now_s_));
+  runTicking(0.02);
+  EXPECT_EQ(command_.speed_mm_per_s[0], 100) << "it accelerates from rest";
+  EXPECT_EQ(control_.pauses(), 1U);
+}
+
 TEST_F(BaseControlTest, AStopHoldsUntilItIsReleasedAndTheOldVelocityIsForgotten) {
   run(0.02);
   control_.setVelocity({0.5, 0, 0}, now_s_);
   run(0.1);
-  control_.setActuator(0, 0.7);
+  control_.setActuator(0, 0.7, now_s_);
   control_.stop();
   EXPECT_FALSE(control_.confirmed(now_s_));
   step();
@@ -134,6 +163,48 @@ TEST_F(BaseControlTest, AStopHoldsUntilItIsReleasedAndTheOldVelocityIsForgotten)
   EXPECT_FALSE(control_.setVelocity({0.5, 0, 0}, now_s_));
 }
 
+TEST_F(BaseControlTest, NothingThatWasOrderedInAStopMovesWhenItIsReleased) {
+  run(0.02);
+  ASSERT_FALSE(control_.setActuator(0, 0.7, now_s_));
+  ASSERT_FALSE(control_.setJoint(0, 0.6, now_s_));  // the stop comes before the servo has moved
+  control_.stop();
+  run(0.1, Mode::kStopped);
+  EXPECT_TRUE(refuses(control_.setActuator(0, 0.8, now_s_), "base/release"));
+  EXPECT_TRUE(refuses(control_.setJoint(0, 0.3, now_s_), "base/release"));
+  EXPECT_EQ(control_.devicesRefused(), 2U);
+  control_.release();
+  EXPECT_TRUE(refuses(control_.setActuator(0, 0.8, now_s_), "not confirmed"));
+  run(0.04, Mode::kStopped);
+  EXPECT_EQ(command_.flags, base::kRelease);
+  EXPECT_EQ(command_.actuator_permille[0], 0);
+  EXPECT_EQ(command_.joint_urad[0], 123456);
+  run(0.1, Mode::kTimedOut);
+  EXPECT_EQ(command_.actuator_permille[0], 0);
+  EXPECT_EQ(command_.joint_urad[0], 123456);
+  EXPECT_FALSE(control_.setActuator(0, 0.8, now_s_));
+  EXPECT_FALSE(control_.setJoint(0, 0.3, now_s_));
+  EXPECT_EQ(run(0.02).actuator_permille[0], 800);
+  EXPECT_EQ(command_.joint_urad[0], 300000);
+}
+
+TEST_F(BaseControlTest, NothingStartsByItselfWhenTheLineComesBack) {
+  run(0.02);
+  ASSERT_FALSE(control_.setActuator(0, 0.7, now_s_));
+  EXPECT_EQ(run(0.02).actuator_permille[0], 700);
+  now_s_ += 0.31;
+  EXPECT_EQ(step().actuator_permille[0], 0);
+  EXPECT_TRUE(refuses(control_.setActuator(0, 0.9, now_s_), "no telemetry"));
+  EXPECT_TRUE(refuses(control_.setJoint(0, 0.3, now_s_), "no telemetry"));
+  run(0.1);
+  EXPECT_EQ(command_.actuator_permille[0], 0);
+  EXPECT_EQ(command_.joint_urad[0], 123456);
+
+  ASSERT_FALSE(control_.setActuator(0, 0.7, now_s_));
+  run(0.02);
+  now_s_ += 0.31;  // and no command was made meanwhile
+  EXPECT_EQ(run(0.02).actuator_permille[0], 0);
+}
+
 TEST_F(BaseControlTest, TelemetryOfBeforeTheReleaseDoesNotConfirmIt) {
   run(0.02);
   control_.stop();
@@ -145,6 +216,29 @@ TEST_F(BaseControlTest, TelemetryOfBeforeTheReleaseDoesNotConfirmIt) {
   control_.addTelemetry(before, now_s_);
   EXPECT_TRUE(control_.stopped());
   EXPECT_EQ(step().flags, base::kRelease);
+}
+
+TEST_F(BaseControlTest, OrdersAreConfirmedAfterALongOutage) {
+  for (const bool release : {false, true}) {
+    run(0.02, Mode::kStopped);
+    control_.stop();
+    run(0.04, Mode::kStopped);
+    if (release) control_.release();
+    for (int i = 0; i < 40000; ++i) {  // more than half of the numbers: 13 minutes
+      now_s_ += 0.02;
+      step();
+    }
+    EXPECT_FALSE(control_.confirmed(now_s_));
+    EXPECT_TRUE(control_.stopped());
+    const auto sequence = command_.sequence;
+    hear(Mode::kStopped);
+    step();
+    EXPECT_EQ(command_.flags, release ? base::kRelease : base::kStop) << sequence;
+    now_s_ += 0.02;
+    hear(release ? Mode::kTimedOut : Mode::kStopped);
+    EXPECT_TRUE(control_.confirmed(now_s_));
+    EXPECT_EQ(control_.stopped(), !release);
+  }
 }
 
 TEST_F(BaseControlTest, AStopWorksWithoutTelemetry) {
@@ -186,8 +280,8 @@ TEST_F(BaseControlTest, NumbersThatAreNoneStopTheBase) {
   control_.setVelocity({0.5, 0, 0}, now_s_);
   EXPECT_TRUE(refuses(control_.setVelocity({0.5, bad, 0}, now_s_), "no number"));
   EXPECT_EQ(run(0.02).valid_ms, 0);
-  EXPECT_TRUE(refuses(control_.setJoint(0, bad), "no number"));
-  EXPECT_TRUE(refuses(control_.setActuator(0, bad), "no number"));
+  EXPECT_TRUE(refuses(control_.setJoint(0, bad, now_s_), "no number"));
+  EXPECT_TRUE(refuses(control_.setActuator(0, bad, now_s_), "no number"));
 }
 
 TEST_F(BaseControlTest, LimitsAcceleratesAndBeginsAtRestAfterAStop) {
@@ -206,8 +300,8 @@ TEST_F(BaseControlTest, LimitsAcceleratesAndBeginsAtRestAfterAStop) {
 
 TEST_F(BaseControlTest, ServosAndActuatorsStayWithinWhatTheyCanDo) {
   run(0.02);
-  control_.setJoint(0, 2.0);
-  control_.setActuator(0, -3.0);
+  control_.setJoint(0, 2.0, now_s_);
+  control_.setActuator(0, -3.0, now_s_);
   EXPECT_NEAR(run(0.02).joint_urad[0], 1e6 * M_PI / 4, 1.0);
   EXPECT_EQ(command_.actuator_permille[0], -1000);
 }
@@ -216,10 +310,22 @@ TEST_F(BaseControlTest, ItsFarewellStopsAndLatchesNothing) {
   run(0.02);
   control_.setVelocity({1.0, 0, 0}, now_s_);
   run(0.1);
-  const base::Command last = control_.farewell();
-  EXPECT_EQ(last.valid_ms, 0);
-  EXPECT_EQ(last.flags, 0);
-  EXPECT_EQ(last.joint_urad[0], command_.joint_urad[0]);
+  const auto last = control_.farewell();
+  ASSERT_TRUE(last.has_value());
+  EXPECT_EQ(last->valid_ms, 0);
+  EXPECT_EQ(last->flags, 0);
+  EXPECT_EQ(last->joints, 1);
+  EXPECT_EQ(last->joint_urad[0], command_.joint_urad[0]);
+}
+
+TEST_F(BaseControlTest, WhoDoesNotKnowTheServosDoesNotMoveThem) {
+  EXPECT_FALSE(control_.farewell().has_value());
+  control_.stop();
+  for (const auto& command : {control_.step(now_s_), control_.farewell()}) {
+    ASSERT_TRUE(command.has_value());
+    EXPECT_EQ(command->flags, base::kStop);
+    EXPECT_EQ(command->joints, 0);
+  }
 }
 
 TEST(BaseMessages, AreThoseOfTheTelemetry) {
@@ -258,6 +364,7 @@ TEST(BaseMessages, RangesFollowRep117) {
   for (const std::uint16_t far : {base::kRangeNothing, std::uint16_t{12001}}) {
     EXPECT_TRUE(std::isinf(range(far)) && range(far) > 0.0F) << far;
   }
+  EXPECT_TRUE(std::isnan(range(base::kRangeUnknown)));
   EXPECT_EQ(toRange(1500, finder, ros::Time(1)).header.frame_id, "range_front");
 }
 

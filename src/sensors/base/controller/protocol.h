@@ -34,6 +34,7 @@ constexpr uint8_t kMaxActuators = 8;
 constexpr uint16_t kMaxValid_ms = 300;
 
 constexpr uint16_t kRangeTooNear = 0;       ///< something is nearer than the range finder can measure
+constexpr uint16_t kRangeUnknown = 0xFFFE;  ///< the range finder is silent, failed, or was dazzled
 constexpr uint16_t kRangeNothing = 0xFFFF;  ///< nothing is as near as the range finder can measure
 
 /// What the controller does with its wheels.
@@ -70,7 +71,7 @@ struct Telemetry {
   int32_t steering_urad[kMaxWheels];    ///< measured, counterclockwise, microradians; 0 for unsteered wheels
   int16_t target_mm_per_s[kMaxWheels];  ///< the speed that the wheel's loop holds now
   int32_t joint_urad[kMaxJoints];       ///< measured, or where it is not, commanded
-  uint16_t range_mm[kMaxRanges];        ///< or kRangeTooNear, kRangeNothing
+  uint16_t range_mm[kMaxRanges];        ///< or kRangeTooNear, kRangeUnknown, kRangeNothing
   int16_t actuator_permille[kMaxActuators];  ///< level now, -1000 to 1000
 };
 

@@ -106,6 +106,19 @@ TEST_F(BaseControllerTest, NoCommandIsValidForLongerThanTheWatchdog) {
   EXPECT_EQ(controller_.mode(), Mode::kTimedOut);
 }
 
+TEST_F(BaseControllerTest, AStopWithoutJointsLeavesTheServosWhereTheyAre) {
+  now_ms_ = 0;
+  give(command(400));
+  EXPECT_EQ(stepUntil(20).joint_urad[0], 500000);
+  Command stop = command(0);
+  stop.flags = kStop;
+  stop.joints = 0;
+  give(stop);
+  EXPECT_EQ(stepUntil(40).joint_urad[0], 500000);
+  EXPECT_EQ(controller_.mode(), Mode::kStopped);
+  EXPECT_EQ(telemetry().command_sequence, stop.sequence);
+}
+
 TEST_F(BaseControllerTest, AStopHoldsUntilItIsReleased) {
   now_ms_ = 0;
   Command stop = command(400);
