@@ -13,9 +13,11 @@
 #include <std_srvs/Empty.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/angles.h"
 #include "stereo_nav/NavigatorStatus.h"

@@ -230,7 +230,8 @@ void NavigatorNode::publishFeedback(const navigator::Situation& situation) {
 
 void NavigatorNode::publishStatus(double now_s) {
   const std::string text = words_.empty() ? navigator_.words() : words_;
-  const auto mode = words_.empty() ? static_cast<std::uint8_t>(navigator_.mode()) : NavigatorStatus::FAILED;
+  const std::uint8_t mode =
+      words_.empty() ? static_cast<std::uint8_t>(navigator_.mode()) : std::uint8_t{NavigatorStatus::FAILED};
   if (text == status_.text && mode == status_.mode && now_s - status_s_ < kStatusPeriod_s) return;
   status_s_ = now_s;
   status_.header.frame_id = inputs_.planFrame();
