@@ -15,6 +15,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "core/angles.h"
 #include "stereo_nav/NavigatorStatus.h"
 #include "stereo_nav/VoStatus.h"
+#include "support/background_command.h"
 #include "support/ros_wait.h"
 
 namespace stereo_nav::test {
@@ -225,7 +227,7 @@ TEST_F(NavigatorNode, TheGoalOfRvizIsReached) {
   EXPECT_LT(base_->distanceTo(4.5, 1.0), 0.05);
 }
 
-TEST_F(NavigatorNode, AGivenPathIsFollowedAndAnEmptyOneStops) {
+TEST_F(NavigatorNode, AGivenPathIsFollowedAlsoFromAFileAndAnEmptyOneStops) {
   ros::Publisher publisher = handle_.advertise<nav_msgs::Path>("navigator/path", 1);
   ASSERT_TRUE(spinUntil([&] { return publisher.getNumSubscribers() > 0; }));
   nav_msgs::Path path;
@@ -235,8 +237,12 @@ TEST_F(NavigatorNode, AGivenPathIsFollowedAndAnEmptyOneStops) {
   ASSERT_TRUE(spinUntil([this] { return base_->drives(); }, kDrive_s)) << base_->status.text;
   publisher.publish(nav_msgs::Path());
   ASSERT_TRUE(spinUntil([this] { return base_->stands() && has(NavigatorStatus::IDLE); }));
-  publisher.publish(path);
+
+  const std::string file = testing::TempDir() + "navigator_test_path.csv";
+  std::ofstream(file) << "x_m,y_m\n4.5,1.5\n4.0,1.5\n3.5,1.5\n3.0,1.5\n";
+  BackgroundCommand sender("exec " SEND_PATH " _file:=" + file + " _frame:=map");
   EXPECT_TRUE(spinUntil([this] { return has(NavigatorStatus::ARRIVED); }, kDrive_s)) << base_->status.text;
+  EXPECT_EQ(sender.waitFor(kLongWait_s), 0) << sender.output();
   EXPECT_LT(base_->distanceTo(3.0, 1.5), 0.05);
 }
 

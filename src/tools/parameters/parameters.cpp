@@ -15,6 +15,7 @@
 #include "nodes/laser_odometry/laser_odometry_node_params.h"
 #ifdef STEREO_NAV_NAVIGATION
 #include "nodes/navigator/navigator_node_params.h"
+#include "nodes/navigator/send_path_params.h"
 #include "nodes/obstacle_grid/obstacle_grid_params.h"
 #endif
 #include "nodes/recorder/recorder_node.h"
@@ -159,6 +160,8 @@ void printOthers() {
   printTable(nodes::ObstacleGridParams());
   printHeading("## `navigator`", "`config/navigator.yaml` and files like it (`~config`).");
   printTable(nodes::NavigatorNodeParams());
+  printHeading("## `send_path`", "Sends a path from a file to the navigator.");
+  printTable(nodes::SendPathParams());
 #endif
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
