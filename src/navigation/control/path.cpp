@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/angles.h"
-#include "core/text_table.h"
 #include "stereo_nav/core/input_error.h"
 
 namespace stereo_nav::control {
@@ -30,13 +29,6 @@ void append(const Eigen::Vector2d& position, std::vector<PathPoint>& points) {
     points.push_back(
         {start.position + share * (position - start.position), start.arc_m + share * length_m, 0.0, 0.0});
   }
-}
-
-/// 1 for metres, 0.001 for millimetres.
-double unitOf(const TextRow& row) {
-  if (row.fields.size() >= 2 && row.fields[0] == "x_m" && row.fields[1] == "y_m") return 1.0;
-  if (row.fields.size() >= 2 && row.fields[0] == "x_mm" && row.fields[1] == "y_mm") return 0.001;
-  return 0.0;
 }
 
 }  // namespace
@@ -118,23 +110,6 @@ double Path::leftOf(const Eigen::Vector2d& position, double arc_m) const {
   const PathPoint point = at(arc_m);
   const Eigen::Vector2d normal(-std::sin(point.heading_rad), std::cos(point.heading_rad));
   return normal.dot(position - point.position);
-}
-
-Path readPath(const std::string& file) {
-  std::vector<TextRow> rows = readTextTable(file);
-  double unit_m = rows.empty() ? 0.0 : unitOf(rows.front());
-  if (unit_m > 0.0) {
-    rows.erase(rows.begin());
-  } else {
-    unit_m = 0.001;
-  }
-  std::vector<Eigen::Vector2d> points;
-  for (const TextRow& row : rows) points.push_back(unit_m * Eigen::Vector2d(row.number(0), row.number(1)));
-  try {
-    return Path(points);
-  } catch (const InputError& error) {
-    throw InputError(file + ": " + error.what());
-  }
 }
 
 }  // namespace stereo_nav::control

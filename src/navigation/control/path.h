@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace stereo_nav::control {
@@ -44,10 +43,5 @@ class Path {
 
   std::vector<PathPoint> points_;
 };
-
-/// Reads a path of one point a line, x and y. The file may have a heading line as in `x_m,y_m` (CSV, metres;
-/// also `x_mm,y_mm`); without one it is the text that the planner of the contest robot of 2024 writes, in
-/// millimetres. `#` starts a comment. Throws InputError with the line.
-Path readPath(const std::string& file);
 
 }  // namespace stereo_nav::control

@@ -22,8 +22,6 @@ void addSide(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::vector
 
 void MotionCheckParams::describe(ParameterVisitor& visitor) {
   visitor.real("horizon_s", horizon_s, {0.1, 5.0}, "s", "for so long the coming motion is checked");
-  visitor.real("length_m", length_m, {0.01, 10.0}, "m", "of the base, about base_link");
-  visitor.real("width_m", width_m, {0.01, 10.0}, "m", "of the base, about base_link");
   visitor.real("margin_m", margin_m, {0.0, 1.0}, "m", "kept free around the base");
   visitor.flag("into_unseen", into_unseen, "whether the base may move where nothing has been seen");
 }

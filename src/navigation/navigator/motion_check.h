@@ -11,8 +11,10 @@ namespace stereo_nav::navigator {
 /// How far ahead motion is checked.
 struct MotionCheckParams {
   double horizon_s = 1.0;
-  double length_m = 0.5, width_m = 0.5;  ///< of the base, a rectangle about base_link
-  double margin_m = 0.05;                ///< kept free around it
+  /// Of the base, a rectangle about base_link. No parameters of their own: they follow from the outline that
+  /// the planner knows.
+  double length_m = 0.5, width_m = 0.5;
+  double margin_m = 0.05;  ///< kept free around it
   /// Whether it may move where nothing has been seen: for a robot that is watched, or whose sensors see all
   /// around.
   bool into_unseen = false;

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "core/text_table.h"
 #include "stereo_nav/core/input_error.h"
-#include "stereo_nav/core/parameters.h"
 
 namespace stereo_nav::navigation {
 namespace {
 
-const std::string kCsvHeading = "x_m,y_m,heading_rad\n";
+const std::string kCsvX = "x_m", kCsvHeading = kCsvX + ",y_m,heading_rad\n";
 constexpr double kMetresPerMillimetre = 1e-3;
 
 void setHeadingsAlong(std::vector<PlanarPose>& poses) {
@@ -44,21 +42,22 @@ std::string toPublishedText(const std::vector<PlanarPose>& poses) {
 }
 
 std::vector<PlanarPose> readPath(const std::string& path) {
-  const std::string text = readTextFile(path);
-  const bool is_csv = text.rfind(kCsvHeading.substr(0, 3), 0) == 0;
-  std::istringstream lines(is_csv ? text.substr(std::min(text.size(), text.find('\n') + 1)) : text);
+  std::vector<TextRow> rows = readTextTable(path);
+  const bool is_csv = !rows.empty() && rows.front().fields.front() == kCsvX;
+  const bool has_headings = is_csv && rows.front().fields.size() > 2;
+  if (is_csv) rows.erase(rows.begin());
   std::vector<PlanarPose> poses;
-  for (const TextRow& row : readTextTable(lines, path)) {
+  for (const TextRow& row : rows) {
     PlanarPose pose;
     pose.position_m = Eigen::Vector2d(row.number(0), row.number(1)) * (is_csv ? 1.0 : kMetresPerMillimetre);
-    if (is_csv) pose.heading_rad = row.number(2);
+    if (has_headings) pose.heading_rad = row.number(2);
     poses.push_back(pose);
   }
   if (poses.empty())
     throw InputError(
         path +
-        ": no points; a path is `x_m,y_m,heading_rad` below that heading, or `x y` in mm, a line each");
-  if (!is_csv) setHeadingsAlong(poses);
+        ": no points; a path is `x_m,y_m` or `x_m,y_m,heading_rad` below that heading, or `x y` in mm, a line each");
+  if (!has_headings) setHeadingsAlong(poses);
   return poses;
 }
 

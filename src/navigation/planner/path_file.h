@@ -13,9 +13,9 @@ std::string toCsv(const std::vector<PlanarPose>& poses);
 /// drawing.
 std::string toPublishedText(const std::vector<PlanarPose>& poses);
 
-/// Reads a path in either form, told apart by the heading of CSV; the published form has no headings, which
-/// become those of the ways between its points. Throws InputError that names the line, and for a path without
-/// points.
+/// Reads a path in either form, told apart by the heading of CSV. The published form has no headings, and CSV
+/// need not have them: then they become those of the ways between the points. Throws InputError that names
+/// the line, and for a path without points.
 std::vector<PlanarPose> readPath(const std::string& path);
 
 }  // namespace stereo_nav::navigation

@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "navigation/control/as_published.h"
 #include "navigation/control/path_driver.h"
+#include "navigation/planner/path_file.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/parameters.h"
 #include "tools/common/command_line.h"
@@ -109,6 +110,12 @@ void writeFiles(const Options& options, const control::Path& path, const control
                       drawCourse(path, run, options.course.reference_m, title, options.output + "/course"));
 }
 
+control::Path readCourse(const std::string& file) {
+  std::vector<Eigen::Vector2d> points;
+  for (const auto& pose : navigation::readPath(file)) points.push_back(pose.position_m);
+  return control::Path(points);
+}
+
 int printParameters() {
   for (const auto& doc : documentParameters(control::ControlParams()))
     std::printf("%-45s %-10s %-14s %s\n", doc.name.c_str(), doc.default_value.c_str(), doc.unit.c_str(),
@@ -121,7 +128,7 @@ int run(int argc, char** argv) {
   if (!options) return 0;
   if (options->parameters) return printParameters();
   const control::ControlParams params = paramsOf(*options);
-  const control::Path path = control::readPath(options->path);
+  const control::Path path = readCourse(options->path);
   const auto follower = followerOf(*options, params, path);
   control::CourseOptions& course = options->course;
   course.drive.wheelbase_m = params.drive.wheelbase_m;

@@ -14,6 +14,8 @@
 #include "nodes/imu_bridge/imu_bridge_node.h"
 #include "nodes/laser_odometry/laser_odometry_node_params.h"
 #ifdef STEREO_NAV_NAVIGATION
+#include "nodes/navigator/navigator_node_params.h"
+#include "nodes/navigator/send_path_params.h"
 #include "nodes/obstacle_grid/obstacle_grid_params.h"
 #endif
 #include "nodes/recorder/recorder_node.h"
@@ -156,6 +158,10 @@ void printOthers() {
   printHeading("## `obstacle_grid`, node and nodelet",
                "`config/obstacles.yaml` and files like it (`~config`).");
   printTable(nodes::ObstacleGridParams());
+  printHeading("## `navigator`", "`config/navigator.yaml` and files like it (`~config`).");
+  printTable(nodes::NavigatorNodeParams());
+  printHeading("## `send_path`", "Sends a path from a file to the navigator.");
+  printTable(nodes::SendPathParams());
 #endif
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "core/angles.h"
 #include "stereo_nav/core/input_error.h"
@@ -18,12 +17,6 @@ std::vector<Eigen::Vector2d> circle(double radius_m, double turn_rad) {
     points.emplace_back(radius_m * std::sin(angle), radius_m * (1.0 - std::cos(angle)));
   }
   return points;
-}
-
-std::string written(const std::string& name, const std::string& text) {
-  const std::string file = testing::TempDir() + name;
-  std::ofstream(file) << text;
-  return file;
 }
 
 TEST(Path, ACircleToTheLeftHasItsCurvature) {
@@ -64,24 +57,6 @@ TEST(Path, TheNearestPlaceIsSoughtInItsWindowAlone) {
 TEST(Path, APathWithoutLengthIsRefused) {
   EXPECT_THROW(Path({{1.0, 1.0}, {1.0, 1.0}}), InputError);
   EXPECT_THROW(Path({{1.0, 1.0}, {std::nan(""), 1.0}}), InputError);
-}
-
-TEST(PathFile, CsvIsInMetresAndTheContestRobotsTextInMillimetres) {
-  const Path csv = readPath(written("path.csv", "x_m,y_m\n0,0\n1.5,0\n"));
-  const Path text = readPath(written("path.txt", "550 350\n550 1850\n"));
-  EXPECT_DOUBLE_EQ(csv.length_m(), 1.5);
-  EXPECT_DOUBLE_EQ(text.length_m(), 1.5);
-  EXPECT_LT((text.at(0.0).position - Eigen::Vector2d(0.55, 0.35)).norm(), 1e-12);
-}
-
-TEST(PathFile, WhatIsNoPathIsNamedWithItsLine) {
-  try {
-    readPath(written("bad.csv", "x_m,y_m\n0,0\n1,a\n"));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("bad.csv:3"), std::string::npos) << error.what();
-  }
-  EXPECT_THROW(readPath(written("empty.csv", "x_m,y_m\n")), InputError);
 }
 
 }  // namespace

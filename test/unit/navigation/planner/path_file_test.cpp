@@ -42,7 +42,21 @@ TEST_F(PathFile, OfThePublishedFormIsInMillimetresAndHasItsHeadingsFromItsWays) 
   EXPECT_NEAR(read_poses[2].heading_rad, kPi / 2.0, 1e-9);
 }
 
-TEST_F(PathFile, ThatCannotBeUsedIsNamed) {
+TEST_F(PathFile, InCsvWithoutHeadingsHasThemFromItsWays) {
+  const auto read_poses = read("x_m,y_m\n0,0\n1.5,0\n1.5,2\n");
+  ASSERT_EQ(read_poses.size(), 3U);
+  EXPECT_EQ(read_poses[2].position_m, Eigen::Vector2d(1.5, 2.0));
+  EXPECT_NEAR(read_poses[0].heading_rad, 0.0, 1e-9);
+  EXPECT_NEAR(read_poses[1].heading_rad, kPi / 2.0, 1e-9);
+}
+
+TEST_F(PathFile, ThatCannotBeUsedIsNamedWithItsLine) {
+  try {
+    read("x_m,y_m\n0,0\n1,a\n");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(":3"), std::string::npos) << error.what();
+  }
   EXPECT_THROW(read(""), InputError);
   EXPECT_THROW(read("x_m,y_m,heading_rad\n"), InputError);
   EXPECT_THROW(read("550 north\n"), InputError);
