@@ -22,9 +22,11 @@ constexpr double kSecondOrder = 1.0;
 /// noise.
 constexpr double kCauchySigmas = 2.385;
 constexpr double kSigmasOfMedian = 1.4826;
-/// Of the motion filter on the coarsest level; on each finer one they are smaller by e.
+/// The motion filter's constant weight on the coarsest level; on each finer one both weights are smaller by
+/// e.
 constexpr double kConstantWeight = 0.05;
-constexpr double kEigenWeight = 15e3;  // (s/m)^2
+/// What a velocity changes by within 1 s, m/s or rad/s; it grows with the root of the time.
+constexpr double kVelocityWalk = 0.5;
 /// Of a velocity that no scan tells, m/s and rad/s.
 constexpr double kUnknown = 1.0;
 
@@ -121,12 +123,15 @@ LaserVelocity solveFlow(const std::vector<FlowEquation>& equations) {
   return result;
 }
 
-/// Along eigenvectors of the covariance the velocity stays the more that of before, the less it is known.
-Eigen::Vector3d filtered(const LaserVelocity& now, const Eigen::Vector3d& before, double level_factor) {
+/// Along eigenvectors of the covariance the velocity stays the more that of before, the less it is known:
+/// compared with what it may have changed by since then.
+Eigen::Vector3d filtered(const LaserVelocity& now, const Eigen::Vector3d& before, double duration_s,
+                         double level_factor) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(now.covariance);
   const Eigen::Matrix3d& E = solver.eigenvectors();
+  const double change = kVelocityWalk * kVelocityWalk * duration_s;
   const Eigen::Array3d inertia =
-      level_factor * (kConstantWeight + kEigenWeight * solver.eigenvalues().array().max(0.0));
+      level_factor * (kConstantWeight + solver.eigenvalues().array().max(0.0) / change);
   const Eigen::Array3d mixed =
       (E.transpose() * now.mean).array() + inertia * (E.transpose() * before).array();
   return E * (mixed / (1.0 + inertia)).matrix();
@@ -158,7 +163,7 @@ LaserVelocity RangeFlow::follow(const RangeScan& scan, double duration_s) {
     }
     result = solveFlow(equations);
     result.mean = logPlanar(expPlanar(duration_s * result.mean) * T_before_now) / duration_s;
-    velocity_ = filtered(result, last_velocity, level_factor);
+    velocity_ = filtered(result, last_velocity, duration_s, level_factor);
   }
   result.mean = velocity_;
   return result;

@@ -35,13 +35,12 @@ double smoothed(const RangeScan& scan, std::size_t beam) {
   return sum_m / weights;
 }
 
-/// Every `stride`-th beam, smoothed.
-RangeScan thinned(const RangeScan& scan, std::size_t stride) {
+/// Every second beam, smoothed.
+RangeScan halved(const RangeScan& scan) {
   RangeScan result;
   result.first_rad = scan.first_rad;
-  result.increment_rad = scan.increment_rad * static_cast<double>(stride);
-  for (std::size_t beam = 0; beam < scan.size(); beam += stride)
-    result.ranges_m.push_back(smoothed(scan, beam));
+  result.increment_rad = 2.0 * scan.increment_rad;
+  for (std::size_t beam = 0; beam < scan.size(); beam += 2) result.ranges_m.push_back(smoothed(scan, beam));
   return result;
 }
 
@@ -87,9 +86,9 @@ RangeScan rangeScanOf(const LaserScan& scan, const Eigen::Isometry3d& T_base_las
 }
 
 std::vector<RangeScan> rangePyramid(const RangeScan& scan) {
-  std::vector<RangeScan> levels{thinned(scan, 1)};
+  std::vector<RangeScan> levels{scan};
   while (levels.size() < kMostLevels && levels.back().size() / 2 >= kLeastBeams)
-    levels.push_back(thinned(levels.back(), 2));
+    levels.push_back(halved(levels.back()));
   return levels;
 }
 

@@ -24,8 +24,8 @@ struct RangeScan {
 
 RangeScan rangeScanOf(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser);
 
-/// The scan, smoothed over five beams of which those count that lie on the same surface, and then levels of
-/// half as many beams each: at most five levels, none with fewer than 20 beams but the first.
+/// The scan, and then levels of half as many beams each, smoothed over five of which those count that lie on
+/// the same surface: at most five levels, none but the first with fewer than 20 beams.
 std::vector<RangeScan> rangePyramid(const RangeScan& scan);
 
 /// The scan as the laser would have measured it `there`, with its points moved: the beams cut the surfaces
