@@ -89,6 +89,39 @@ LaserOdometryResult LaserOdometry::process(const LaserScan& scan, const Eigen::I
   check(scan, T_base_laser);
   const FilterMoment before = momentOf(filter_);
   filter_.beginStep();
+  LaserOdometryResult result;
+  result.time_s = scan.time_s;
+  if (params_.method == LaserMethod::kRangeFlow) {
+    followFlow(scan, T_base_laser, result);
+  } else {
+    match(scan, T_base_laser, result);
+  }
+  complete(before, result);
+  last_s_ = scan.time_s;
+  return result;
+}
+
+void LaserOdometry::followFlow(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser,
+                               LaserOdometryResult& result) {
+  const double duration_s = last_s_ ? scan.time_s - *last_s_ : 0.0;
+  const LaserVelocity velocity = flow_.follow(rangeScanOf(scan, T_base_laser), duration_s);
+  result.points = pointsOf(scan, T_base_laser).points.size();
+  result.inlier_share = velocity.inlier_share;
+  result.state = LaserOdometryResult::State::kTracking;
+  if (!last_s_) return;
+  if (velocity.inlier_share == 0.0) {
+    result.state = LaserOdometryResult::State::kCoasting;
+    result.reason = "too few beams have a range in this scan and in the one before; is the laser covered?";
+  }
+  // The axes at the laser's place are those of the base.
+  Eigen::Isometry2d T_base_axes = Eigen::Isometry2d::Identity();
+  T_base_axes.translation() = T_base_laser.translation().head<2>();
+  const Eigen::Matrix3d to_base = duration_s * adjointPlanar(T_base_axes);
+  filter_.move(expPlanar(to_base * velocity.mean), to_base * velocity.covariance * to_base.transpose());
+}
+
+void LaserOdometry::match(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser,
+                          LaserOdometryResult& result) {
   const MeasuredMotion during = inputs_.between(scan.time_s, scan.time_s + scan.sweep_s());
   // Before the first scan there is no motion, but its sources.
   const MeasuredMotion since = last_s_ ? inputs_.between(*last_s_, scan.time_s)
@@ -96,8 +129,6 @@ LaserOdometryResult LaserOdometry::process(const LaserScan& scan, const Eigen::I
   filter_.predict(since, coasting_s_);
   const Sweep sweep(filter_, during);
   const LaserPoints points = pointsOf(scan, T_base_laser);
-  LaserOdometryResult result;
-  result.time_s = scan.time_s;
   result.wheels = since.translation == RateSource::kWheels;
   result.gyroscope = since.rotation == RateSource::kGyro;
   result.points = points.points.size();
@@ -111,9 +142,6 @@ LaserOdometryResult LaserOdometry::process(const LaserScan& scan, const Eigen::I
   const bool coasts = result.state == LaserOdometryResult::State::kCoasting;
   coasting_ = coasts ? coasting_ + 1 : 0;
   coasting_s_ = coasts && last_s_ ? coasting_s_ + scan.time_s - *last_s_ : 0.0;
-  complete(before, result);
-  last_s_ = scan.time_s;
-  return result;
 }
 
 void LaserOdometry::lay(const LaserPoints& points, const Sweep& sweep, LaserOdometryResult& result) {

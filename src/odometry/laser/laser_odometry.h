@@ -10,6 +10,7 @@
 #include "odometry/laser/measured_motion.h"
 #include "odometry/laser/motion_covariance.h"
 #include "odometry/laser/pose_filter.h"
+#include "odometry/laser/range_flow.h"
 #include "odometry/laser/registration.h"
 #include "odometry/laser/rest_watch.h"
 
@@ -47,6 +48,7 @@ struct LaserOdometryResult {
 /// 2. the scan is undistorted along that motion and laid onto the map of the last keyframes;
 /// 3. what it does not tell stays the prediction's;
 /// 4. the filter learns from it what the wheels' scale, the gyroscope's bias or the velocity are.
+/// With LaserMethod::kRangeFlow the motion between two scans is RangeFlow's instead.
 class LaserOdometry {
  public:
   explicit LaserOdometry(const LaserParams& params);
@@ -65,6 +67,8 @@ class LaserOdometry {
 
  private:
   void check(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser) const;
+  void followFlow(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser, LaserOdometryResult& result);
+  void match(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser, LaserOdometryResult& result);
   void lay(const LaserPoints& points, const Sweep& sweep, LaserOdometryResult& result);
   Registration registerOrSearch(const LaserPoints& points, const Sweep& sweep) const;
   std::string refusal(const Registration& registration) const;
@@ -76,6 +80,7 @@ class LaserOdometry {
   MotionInputs inputs_;
   PoseFilter filter_;
   LineMap map_;
+  RangeFlow flow_;
   RestWatch rest_;
   std::optional<double> last_s_;
   Eigen::Isometry2d T_odom_keyframe_ = Eigen::Isometry2d::Identity();

@@ -3,6 +3,10 @@
 namespace stereo_nav::odometry {
 
 void LaserParams::describe(ParameterVisitor& visitor) {
+  visitEnum(
+      visitor, "method", method,
+      {{"scan_matching", LaserMethod::kScanMatching}, {"range_flow", LaserMethod::kRangeFlow}},
+      "range_flow: for comparison, as rf2o's paper has it; takes no other parameter, neither wheels nor IMU");
   visitor.real("range_sigma_m", range_sigma_m, {1e-4, 1.0}, "m",
                "standard deviation of a range at distance 0");
   visitor.real("range_sigma_share", range_sigma_share, {0.0, 0.2}, "",

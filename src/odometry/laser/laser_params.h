@@ -4,8 +4,15 @@
 
 namespace stereo_nav::odometry {
 
+/// How the laser odometry gets from scan to scan.
+enum class LaserMethod {
+  kScanMatching,  ///< registration to a map, with wheels and gyroscope
+  kRangeFlow      ///< RangeFlow between two scans, as published: the laser alone
+};
+
 /// Parameters of the laser odometry: the laser's noise, what wheels and gyroscope are worth, and the map.
 struct LaserParams {
+  LaserMethod method = LaserMethod::kScanMatching;
   double range_sigma_m = 0.01;
   double range_sigma_share = 0.01;
   double wheel_slip_sigma = 0.05;

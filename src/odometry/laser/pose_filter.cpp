@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/planar_motion.h"
+
 namespace stereo_nav::odometry {
 namespace {
 
@@ -30,6 +32,16 @@ constexpr double kMostRatio = 10.0;
 constexpr double kLeastNoise = 0.05;
 constexpr double kLeastRotationNoise = 0.5;
 constexpr double kMostNoise = 1000.0;
+
+/// What turns the pose turns the step (axes of odom).
+Matrix9d errorsAfter(const Eigen::Vector2d& step) {
+  Matrix9d F = Matrix9d::Identity();
+  for (const Eigen::Index i : {0, 3}) {
+    F(i, i + 2) = -step.y();
+    F(i + 1, i + 2) = step.x();
+  }
+  return F;
+}
 
 }  // namespace
 
@@ -147,11 +159,7 @@ void PoseFilter::predict(const MeasuredMotion& motion, double unseen_s) {
     const Eigen::Vector2d step = dt * R * rates.rate.head<2>();
     state_.p_odom += step;
     state_.yaw_rad += dt * rates.rate.z();
-    Matrix9d F = Matrix9d::Identity();
-    for (const Eigen::Index i : {0, 3}) {  // what turns the pose turns the step
-      F(i, i + 2) = -step.y();
-      F(i + 1, i + 2) = step.x();
-    }
+    Matrix9d F = errorsAfter(step);
     F.block<2, 2>(3, 6) = dt * R * rates.gain.head<2>().asDiagonal();
     F(5, 8) = dt * rates.gain.z();
     transform(F);
@@ -160,6 +168,14 @@ void PoseFilter::predict(const MeasuredMotion& motion, double unseen_s) {
     covariance_(5, 5) += noise.z();
     covariance_.bottomRightCorner<3, 3>().diagonal() += dt * correctionWalk();
   }
+}
+
+void PoseFilter::move(const Eigen::Isometry2d& T_before_now, const Eigen::Matrix3d& covariance) {
+  const Eigen::Vector2d step = Eigen::Rotation2Dd(state_.yaw_rad) * T_before_now.translation();
+  state_.p_odom += step;
+  state_.yaw_rad += std::atan2(T_before_now(1, 0), T_before_now(0, 0));
+  transform(errorsAfter(step));
+  covariance_.block<3, 3>(3, 3) += inAxesOf(state_.T_odom_base(), covariance);
 }
 
 void PoseFilter::judgeNoise(const Vector6d& shift, const Matrix6d& covariance, bool all_told) {

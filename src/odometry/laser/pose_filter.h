@@ -49,6 +49,8 @@ class PoseFilter {
   void beginStep() { transition_.setIdentity(); }
   /// Moves on. `unseen_s`: how long ago a scan has held the velocity. What nothing measures comes to rest.
   void predict(const MeasuredMotion& motion, double unseen_s);
+  /// Moves on as something else has measured it, with the covariance of that motion in the axes of the base.
+  void move(const Eigen::Isometry2d& T_before_now, const Eigen::Matrix3d& covariance);
   /// Before update(): learns from the shift how noisy wheels and gyroscope are, compared with the parameters.
   void judgeNoise(const Vector6d& shift, const Matrix6d& covariance, bool all_told);
   /// `shift` of d and c by a scan, their covariance after it, and what takes their errors before it to those

@@ -239,5 +239,15 @@ TEST(TruthFrame, groundTruthOfTheCameraIsRecognised) {
   EXPECT_NE(other->find("another frame than base_link"), std::string::npos) << *other;
 }
 
+TEST(TruthFrame, aHeadingThatSwaysIsNoOtherFrame) {
+  auto input = straightDrive(1.0);
+  for (std::size_t i = 0; i < input.frames.size(); ++i)
+    input.frames[i].T_odom_base = pose(static_cast<double>(i), 0, 0, i % 2 == 0 ? 40.0 : -40.0);
+  const EvaluationSummary summary = evaluate(input).summary;
+  EXPECT_LT(summary.ate_rmse_m, 0.05 * summary.path_length_m);
+  EXPECT_GT(summary.rpe_translation_percent, 20.0);
+  EXPECT_FALSE(wrongTruthFrame(input, summary));
+}
+
 }  // namespace
 }  // namespace stereo_nav::eval
