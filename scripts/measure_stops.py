@@ -6,7 +6,7 @@ cmd_vel_mux.
 
 Runs a ROS master of its own, base_emulator and base_bridge. Each trial drives at --speed, lets one of them end at a random
 moment, and takes from the emulator's log when its wheels were told to stand and how far they rolled. Both are counted from the
-last cmd_vel that was published before it ended. What is frozen goes on after a second, when the driver has long been silent: what
+last cmd_vel that was published before it ended. What is frozen goes on after two seconds, when the driver has long been silent: what
 waited in its sockets must not drive. Prints a table; the status is 1 where one trial took longer than 0.35 s, or
 rolled farther than v x 0.35 s + v^2/(2 a) + 2 cm.
 """
@@ -189,9 +189,9 @@ def freeze(process, graph):
     """Lets it stand still while the driver falls silent, and go on; returns when that began."""
     process.send_signal(signal.SIGSTOP)
     frozen_s = time.monotonic()
-    time.sleep(0.2)  # some velocities wait in its socket
+    time.sleep(1.5)  # many velocities wait in its socket
     graph.tell_driver("stop")
-    time.sleep(0.8)
+    time.sleep(0.5)
     process.send_signal(signal.SIGCONT)
     time.sleep(0.5)  # in which it might drive
     return frozen_s
