@@ -54,7 +54,10 @@ void Navigator::cancel() {
 }
 
 Twist Navigator::update(const Situation& situation) {
-  trail_.add(situation.state.T_world_base.translation());
+  if (trail_.add(situation.state.T_world_base.translation())) {
+    driver_.reset();  // the path is where the base was; it plans anew
+    reverse_.reset();
+  }
   if (mode_ != NavigatorMode::kDriving && mode_ != NavigatorMode::kRecovering) return Twist::Zero();
   Twist twist = Twist::Zero();
   asked_.reset();

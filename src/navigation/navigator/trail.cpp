@@ -6,6 +6,7 @@ namespace stereo_nav::navigator {
 namespace {
 
 constexpr double kTrailSpacing_m = 0.02;
+constexpr double kJump_m = 1.0;  ///< further than a base drives between two odometries
 
 control::ControlParams backwards(control::ControlParams params, double speed_m_per_s) {
   params.law = control::FollowLaw::kPursuit;
@@ -20,10 +21,13 @@ control::Twist turnedHalf(const control::Twist& twist) {
 
 }  // namespace
 
-void Trail::add(const Eigen::Vector2d& p_odom) {
-  if (!points_.empty() && (points_.back() - p_odom).norm() < kTrailSpacing_m) return;
+bool Trail::add(const Eigen::Vector2d& p_odom) {
+  const bool jumped = !points_.empty() && (points_.back() - p_odom).norm() > kJump_m;
+  if (jumped) points_.clear();
+  if (!points_.empty() && (points_.back() - p_odom).norm() < kTrailSpacing_m) return false;
   points_.push_back(p_odom);
   while (static_cast<double>(points_.size()) * kTrailSpacing_m > most_m_) points_.pop_front();
+  return jumped;
 }
 
 std::vector<Eigen::Vector2d> Trail::back(double length_m) const {

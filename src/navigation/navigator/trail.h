@@ -15,9 +15,9 @@ class Trail {
   /// Keeps the last `most_m` of the way.
   explicit Trail(double most_m) : most_m_(most_m) {}
 
-  /// The place of the base; points lie 2 cm apart.
-  void add(const Eigen::Vector2d& p_odom);
-  void clear() { points_.clear(); }
+  /// The place of the base; points lie 2 cm apart. True where it has jumped, because the odometry was set
+  /// anew: nothing is known then of the way there.
+  bool add(const Eigen::Vector2d& p_odom);
 
   /// From the base back along its way, `length_m` at most. Fewer than two points where it has not moved.
   std::vector<Eigen::Vector2d> back(double length_m) const;

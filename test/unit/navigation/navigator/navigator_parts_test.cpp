@@ -53,6 +53,14 @@ TEST(Trail, LeadsBackTheWayThatTheBaseCame) {
   EXPECT_LT((back.back() - Eigen::Vector2d(1.5, 0.0)).norm(), 0.03);
 }
 
+TEST(Trail, ForgetsTheWayWhenTheOdometryIsSetAnew) {
+  Trail trail(3.0);
+  for (int i = 0; i <= 100; ++i) EXPECT_FALSE(trail.add({0.02 * i, 0.0}));
+  EXPECT_TRUE(trail.add({0.0, 0.0}));
+  EXPECT_EQ(trail.back(1.5).size(), 1U);
+  EXPECT_FALSE(trail.add({0.05, 0.0}));
+}
+
 TEST(ReverseDriver, BacksOffAlongACurve) {
   const control::ControlParams params;
   std::vector<Eigen::Vector2d> points;  // to the base at the origin it came on a circle of 1 m
