@@ -17,8 +17,8 @@ struct LaserVelocity {
 /// Jaimez, Monroy and Gonzalez-Jimenez 2016, "Planar odometry from a radial laser scanner. A range flow-based
 /// approach" (ICRA; the method of rf2o), from its equations: each beam gives a linear equation of the
 /// velocity between two scans; a pyramid of scans takes it from the coarsest to the finest.
-/// Two constants are not the paper's: that of the loss follows from the residuals, and the motion filter's
-/// weight of eigenvalues from what a velocity may change by between two scans.
+/// The constants of the pre-weighting and of the loss are our own, and so is the motion filter's weight of
+/// eigenvalues: it follows from what a velocity may change by between two scans.
 class RangeFlow {
  public:
   /// The velocity since the scan before, which came `duration_s` earlier. Zero with a standard deviation of
