@@ -13,6 +13,7 @@
 #include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
 #include "nodes/laser_odometry/laser_odometry_node_params.h"
+#include "nodes/map_image_server/map_image_server_params.h"
 #ifdef STEREO_NAV_NAVIGATION
 #include "nodes/obstacle_grid/obstacle_grid_params.h"
 #endif
@@ -161,6 +162,8 @@ void printOthers() {
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
                "file.");
   printTable(nodes::RigTransformsParams());
+  printHeading("## `map_image_server`");
+  printTable(nodes::MapImageServerParams());
   printHeading("## `recorder`");
   printTable(nodes::RecorderParams());
   printHeading(
