@@ -17,6 +17,7 @@
 #ifdef STEREO_NAV_NAVIGATION
 #include "nodes/obstacle_grid/obstacle_grid_params.h"
 #endif
+#include "nodes/range_correction/range_correction_params.h"
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "nodes/simulator/simulator_node.h"
@@ -164,6 +165,8 @@ void printOthers() {
   printTable(nodes::RigTransformsParams());
   printHeading("## `map_image_server`");
   printTable(nodes::MapImageServerParams());
+  printHeading("## `range_correction`", "`config/range_correction.yaml` and files like it (`~config`).");
+  printTable(nodes::RangeCorrectionParams());
   printHeading("## `recorder`");
   printTable(nodes::RecorderParams());
   printHeading(
