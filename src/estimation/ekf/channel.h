@@ -44,6 +44,7 @@ struct Opinions {
 struct ChannelMemory {
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
   double newest_s = kNever;
+  double used_s = kNever;  ///< of the last that was taken in
   // Of an odometry: its last pose.
   bool anchored = false;
   double anchored_s = kNever;

@@ -13,6 +13,7 @@ namespace {
 
 using Kind = Measurement::Kind;
 constexpr double kAside_s = 1.0;
+constexpr double kHeard_s = 1.0;
 
 const std::vector<int> kAllFields = {0, 1, 2, 3, 4, 5};
 
@@ -106,6 +107,7 @@ EstimatorMemory Estimator::initial(double time_s) const {
 }
 
 Outcome Estimator::apply(const Measurement& measurement, EstimatorMemory& memory) const {
+  holdUnshownScales(measurement.time_s, memory);
   const Eigen::Isometry3d before = memory.state.T_world_base;
   predict(layout_, noise_, measurement.time_s, memory.state);
   memory.T_start_reckoned =
@@ -118,6 +120,7 @@ Outcome Estimator::apply(const Measurement& measurement, EstimatorMemory& memory
   Outcome outcome =
       measurement.kind == Kind::kMotion ? applyMotion(measurement, memory) : applyDirect(measurement, memory);
   outcome.verdict = std::move(verdict);
+  if (outcome.kind == Outcome::Kind::kUsed) channel.used_s = measurement.time_s;
   if (!params_.zero_velocity_updates) return outcome;
   smoothTwist(twist, interval_s, channel);
   holdStill(measurement, memory);
@@ -136,6 +139,19 @@ Verdict Estimator::voteWhenDue(double time_s, EstimatorMemory& memory) const {
   }
   memory.window = window;
   return verdict;
+}
+
+/// The wheels' scales are held while nothing but the wheels tells of the way, or of the turning: what
+/// corrections would make of them then is only what the model expects of velocities.
+void Estimator::holdUnshownScales(double time_s, EstimatorMemory& memory) const {
+  bool way_shown = false, turn_shown = false;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const bool heard = time_s - memory.channels[i].used_s < kHeard_s;
+    if (!heard || channels_[i].wheels || channels_[i].kind == Kind::kAcceleration) continue;
+    turn_shown = true;
+    way_shown = way_shown || channels_[i].kind != Kind::kRate;
+  }
+  memory.state.scale_held = {!way_shown, !way_shown, !turn_shown};
 }
 
 Outcome Estimator::takeIn(const Measurement& measurement, Innovation innovation,

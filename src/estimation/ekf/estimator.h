@@ -56,6 +56,7 @@ class Estimator {
   Verdict voteWhenDue(double time_s, EstimatorMemory& memory) const;
   Outcome applyMotion(const Measurement& measurement, EstimatorMemory& memory) const;
   Outcome applyDirect(const Measurement& measurement, EstimatorMemory& memory) const;
+  void holdUnshownScales(double time_s, EstimatorMemory& memory) const;
   Outcome takeIn(const Measurement& measurement, Innovation innovation, EstimatorMemory& memory) const;
   void openUnknownPose(const Measurement& measurement, EstimatorMemory& memory) const;
   void startAnchor(const Measurement& measurement, EstimatorMemory& memory) const;

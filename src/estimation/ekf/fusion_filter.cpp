@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace stereo_nav::estimation {
@@ -148,6 +149,12 @@ FusedEstimate FusionFilter::estimate(double time_s) const {
       inWorldAxes(state->T_world_base.linear(), layout().covarianceOf(*state, error_row::kPosition, 6));
   estimate.twist << state->velocity, state->rate;
   estimate.twist_covariance = layout().covarianceOf(*state, error_row::kVelocity, 6);
+  const Eigen::Vector3d scale_variances = layout().covarianceOf(*state, error_row::kScale, 3).diagonal();
+  const Eigen::Vector3d by_scale = velocityByScale(*state);
+  const int fields[3] = {0, 1, 5};
+  for (int axis = 0; axis < 3; ++axis)
+    estimate.twist_covariance(fields[axis], fields[axis]) +=
+        std::pow(by_scale[axis], 2) * scale_variances[axis];
   estimate.acceleration = state->acceleration;
   return estimate;
 }

@@ -46,7 +46,8 @@ void observeTwist(const State& state, const Measurement& measurement, bool wheel
       const double factor = 1.0 / (1.0 + state.wheel_scale[i]);
       whole.residual[rows[i]] *= factor;
       whole.H.row(rows[i]) *= factor;
-      whole.H(rows[i], kScale + i) = -factor * whole.residual[rows[i]];
+      if (!state.scale_held[static_cast<std::size_t>(i)])
+        whole.H(rows[i], kScale + i) = -factor * whole.residual[rows[i]];
     }
   }
   whole.residual = (measurement.value - whole.residual).eval();

@@ -85,6 +85,16 @@ void step(const StateLayout& layout, const ProcessNoise& noise, double step_s, S
 
 }  // namespace
 
+Eigen::Vector3d velocityByScale(const State& state) {
+  const Eigen::Vector3d twist(state.velocity.x(), state.velocity.y(), state.rate.z());
+  Eigen::Vector3d by_scale = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (state.scale_held[static_cast<std::size_t>(axis)])
+      by_scale[axis] = twist[axis] / (1.0 + state.wheel_scale[axis]);
+  }
+  return by_scale;
+}
+
 CoreMatrix transitionOf(const State& state, double step_s, double acceleration_decay_s) {
   using namespace error_row;
   const Decay decay = decayAfter(step_s, acceleration_decay_s);
@@ -97,6 +107,9 @@ CoreMatrix transitionOf(const State& state, double step_s, double acceleration_d
   F.block<3, 3>(kPosition, kAcceleration) = decay.way_s2 * Eigen::Matrix3d::Identity();
   F.block<3, 3>(kVelocity, kAcceleration) = decay.velocity_s * Eigen::Matrix3d::Identity();
   F.block<3, 3>(kAcceleration, kAcceleration) = decay.left * Eigen::Matrix3d::Identity();
+  const int moved[3] = {kPosition, kPosition + 1, kRotation + 2};
+  const Eigen::Vector3d by_scale = velocityByScale(state);
+  for (int axis = 0; axis < 3; ++axis) F(moved[axis], kScale + axis) = step_s * by_scale[axis];
   return F;
 }
 

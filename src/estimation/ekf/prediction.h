@@ -17,6 +17,10 @@ struct ProcessNoise {
   double acceleration_decay_s = 1.0;  ///< an acceleration that nothing measures dies away in this time
 };
 
+/// What a unit error of each held wheel scale (forward, left, turning) is off by as a velocity; zero for
+/// those that are not held. m/s, m/s, rad/s.
+Eigen::Vector3d velocityByScale(const State& state);
+
 /// Error at the end of a step of `step_s` for a unit error of each core row at its start: rho' = -omega x rho
 /// - v x phi + dv, phi' = -omega x phi + domega (Sola et al. 2018, "A micro Lie theory", with the error on
 /// the right).

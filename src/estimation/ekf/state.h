@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <vector>
 
 namespace stereo_nav::estimation {
@@ -30,6 +31,9 @@ struct State {
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();  ///< m/s^2, axes of base_link
   /// Forward, left and turning: true motion = (1 + scale) times that of the wheels.
   Eigen::Vector3d wheel_scale = Eigen::Vector3d::Zero();
+  /// Held scales are not estimated, but considered (Schmidt 1966): the error of the velocity is then the
+  /// wheels' own, without the scale's, which enters the pose as it moves.
+  std::array<bool, 3> scale_held{};
   /// Cloned poses, one for each odometry: where base_link was at its last message.
   std::vector<Eigen::Isometry3d> anchors;
   Eigen::MatrixXd covariance;  ///< of the rows that StateLayout keeps

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "ros/grid_messages.h"
 #include "ros/parameter_server.h"
 #include "ros/setup_checks.h"
 #include "stereo_nav/core/input_error.h"
@@ -180,7 +181,7 @@ void ObstacleGridNode::handleTimer(const ros::WallTimerEvent& /*event*/) {
 
 void ObstacleGridNode::publish() {
   changed_ = false;
-  fillMessage(map_.grid(), params_.odom_frame, newest_, message_);
+  ros_io::fillMessage(map_.grid(), params_.odom_frame, newest_, message_);
   publisher_.publish(message_);
 }
 

@@ -35,18 +35,4 @@ std::optional<navigation::Beam> toBeam(const sensor_msgs::Range& range, double f
   return beam;
 }
 
-void fillMessage(const grid::OccupancyGrid& grid, const std::string& frame, const ros::Time& stamp,
-                 nav_msgs::OccupancyGrid& message) {
-  message.header.frame_id = frame;
-  message.header.stamp = stamp;
-  message.info.map_load_time = stamp;
-  message.info.resolution = static_cast<float>(grid.geometry.resolution_m);
-  message.info.width = static_cast<std::uint32_t>(grid.geometry.width);
-  message.info.height = static_cast<std::uint32_t>(grid.geometry.height);
-  message.info.origin.position.x = grid.geometry.origin_x_m;
-  message.info.origin.position.y = grid.geometry.origin_y_m;
-  message.info.origin.orientation.w = 1.0;
-  message.data.assign(grid.cells.begin(), grid.cells.end());
-}
-
 }  // namespace stereo_nav::nodes

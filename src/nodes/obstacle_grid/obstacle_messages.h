@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nav_msgs/OccupancyGrid.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/Range.h>
 
@@ -17,9 +16,5 @@ namespace stereo_nav::nodes {
 void toBeams(const sensor_msgs::LaserScan& scan, double free_range_m, std::vector<navigation::Beam>& beams);
 /// The same of a range finder.
 std::optional<navigation::Beam> toBeam(const sensor_msgs::Range& range, double free_range_m);
-
-/// Writes the grid into a message, whose memory is used again.
-void fillMessage(const grid::OccupancyGrid& grid, const std::string& frame, const ros::Time& stamp,
-                 nav_msgs::OccupancyGrid& message);
 
 }  // namespace stereo_nav::nodes

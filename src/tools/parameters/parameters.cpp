@@ -13,11 +13,13 @@
 #include "nodes/cmd_vel_mux/cmd_vel_mux_node.h"
 #include "nodes/imu_bridge/imu_bridge_node.h"
 #include "nodes/laser_odometry/laser_odometry_node_params.h"
+#include "nodes/map_image_server/map_image_server_params.h"
 #ifdef STEREO_NAV_NAVIGATION
 #include "nodes/navigator/navigator_node_params.h"
 #include "nodes/navigator/send_path_params.h"
 #include "nodes/obstacle_grid/obstacle_grid_params.h"
 #endif
+#include "nodes/range_correction/range_correction_params.h"
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
 #include "nodes/simulator/simulator_node.h"
@@ -167,6 +169,10 @@ void printOthers() {
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
                "file.");
   printTable(nodes::RigTransformsParams());
+  printHeading("## `map_image_server`");
+  printTable(nodes::MapImageServerParams());
+  printHeading("## `range_correction`", "`config/range_correction.yaml` and files like it (`~config`).");
+  printTable(nodes::RangeCorrectionParams());
   printHeading("## `recorder`");
   printTable(nodes::RecorderParams());
   printHeading(

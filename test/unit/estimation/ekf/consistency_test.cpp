@@ -13,11 +13,14 @@ struct Consistency {
 };
 
 /// Over several runs, at instants that lie seconds apart.
-Consistency consistencyOf(SceneOptions options, unsigned runs) {
+Consistency consistencyOf(
+    SceneOptions options, unsigned runs,
+    const std::function<void(SceneOptions&)>& vary = [](SceneOptions&) {}) {
   Consistency sum;
   int count = 0;
   for (unsigned seed = 1; seed <= runs; ++seed) {
     options.seed = seed;
+    vary(options);
     const SceneResult result = runScene(options);
     for (std::size_t i = 500; i < result.samples.size(); i += 250) {
       const SceneSample& sample = result.samples[i];
@@ -46,6 +49,19 @@ TEST(FusionConsistency, WithWheelsAndGyroscopeAndLaserAlone) {
   const Consistency consistency = consistencyOf(options, 30);
   EXPECT_GT(consistency.mean, 2.0);
   EXPECT_LT(consistency.mean, 4.5);
+  EXPECT_GT(consistency.inside_95, 0.85);
+}
+
+TEST(FusionConsistency, WithWheelsOfUnknownScaleAndGyroscopeAlone) {
+  SceneOptions options;
+  options.laser = options.stereo = false;
+  const Consistency consistency = consistencyOf(options, 60, [](SceneOptions& scene) {
+    std::mt19937 random(1000 + scene.seed);
+    std::normal_distribution<double> scale(0.0, FilterParams().wheel_scale_sigma);
+    for (int axis = 0; axis < 3; ++axis) scene.wheel_scale[axis] = scale(random);
+  });
+  EXPECT_GT(consistency.mean, 1.5);
+  EXPECT_LT(consistency.mean, 5.0);
   EXPECT_GT(consistency.inside_95, 0.85);
 }
 

@@ -122,7 +122,7 @@ struct Arrival {
 }  // namespace
 
 FusionFilter sceneFilter(const SceneOptions& options) {
-  std::vector<Channel> channels(options.gnss ? 5 : options.stereo ? 4 : 3);
+  std::vector<Channel> channels(options.gnss ? 5 : options.stereo ? 4 : options.laser ? 3 : 2);
   const char* const names[5] = {"wheels", "gyroscope", "laser", "stereo", "gnss"};
   const Kind kinds[5] = {Kind::kTwist, Kind::kRate, Kind::kMotion, Kind::kMotion, Kind::kPose};
   for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -134,7 +134,7 @@ FusionFilter sceneFilter(const SceneOptions& options) {
   channels[channel::kWheels].wheels = true;
   StateParts parts;
   parts.planar = parts.gyro = parts.wheel_scales = true;
-  parts.anchors = channels.size() > 3 ? 2 : 1;
+  parts.anchors = channels.size() > 3 ? 2 : channels.size() > 2 ? 1 : 0;
   return FusionFilter(FilterParams(), parts, channels);
 }
 
@@ -156,7 +156,7 @@ SceneResult runScene(const SceneOptions& options) {
     const Eigen::Vector3d twist = trueTwist(t);
     send(gyroOf(time_s, twist[2] + options.gyro_bias_rad_s, random));
     if (step % 2 == 0) send(wheelsOf(time_s, twist, options.wheel_scale, random));
-    if (step % 10 == 0) send(laser.measure(time_s, T_true, random));
+    if (options.laser && step % 10 == 0) send(laser.measure(time_s, T_true, random));
     if (options.stereo && step % 10 == 5) send(stereo.measure(time_s, T_true, random));
     if (options.gnss && step % 20 == 7) send(gnssOf(time_s, T_true, random));
     for (auto it = waiting.begin(); it != waiting.end();) {

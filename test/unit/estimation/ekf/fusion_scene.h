@@ -16,7 +16,8 @@ using Fault = std::function<bool(Measurement&, double& received_s)>;
 struct SceneOptions {
   unsigned seed = 1;
   double duration_s = 60.0;
-  bool stereo = true;  ///< a second odometry
+  bool laser = true;
+  bool stereo = true;  ///< a second odometry, beside the laser
   bool gnss = false;   ///< absolute positions at 5 Hz, sigma 0.3 m
   double gyro_bias_rad_s = 0.0026;
   Eigen::Vector3d wheel_scale{0.02, -0.07, 0.05};
