@@ -31,7 +31,7 @@ namespace {
 
 constexpr double kPeriod_s = 0.02;
 constexpr double kCell_m = 0.05;
-constexpr double kDrive_s = 120.0;  ///< more than any way takes
+constexpr double kLongestWay_s = 120.0;  ///< more than any way takes
 
 /// The wall of the world, which is the map: a gap is left at its upper end.
 bool isWall(double x_m, double y_m) {
@@ -209,7 +209,7 @@ std::unique_ptr<PlayedBase> NavigatorNode::base_;
 
 TEST_F(NavigatorNode, AnActionlibClientOfMoveBaseGetsTheRobotAroundAWallToItsGoal) {
   send(inMap(4.0, -1.0, -0.5 * kPi));
-  ASSERT_TRUE(spinUntil([this] { return isDone(); }, kDrive_s)) << base_->status.text;
+  ASSERT_TRUE(spinUntil([this] { return isDone(); }, kLongestWay_s)) << base_->status.text;
   EXPECT_EQ(client_.getState(), actionlib::SimpleClientGoalState::SUCCEEDED) << client_.getState().getText();
   EXPECT_LT(base_->distanceTo(4.0, -1.0), 0.05);
   EXPECT_NEAR(base_->heading_rad(), -0.5 * kPi, 3.0 * kRadPerDeg);
@@ -223,7 +223,8 @@ TEST_F(NavigatorNode, TheGoalOfRvizIsReached) {
   ASSERT_TRUE(spinUntil([&] { return publisher.getNumSubscribers() > 0; }));
   publisher.publish(inMap(4.5, 1.0, 0.0));
   ASSERT_TRUE(spinUntil([this] { return has(NavigatorStatus::DRIVING); })) << base_->status.text;
-  EXPECT_TRUE(spinUntil([this] { return has(NavigatorStatus::ARRIVED); }, kDrive_s)) << base_->status.text;
+  EXPECT_TRUE(spinUntil([this] { return has(NavigatorStatus::ARRIVED); }, kLongestWay_s))
+      << base_->status.text;
   EXPECT_LT(base_->distanceTo(4.5, 1.0), 0.05);
 }
 
@@ -234,38 +235,39 @@ TEST_F(NavigatorNode, AGivenPathIsFollowedAlsoFromAFileAndAnEmptyOneStops) {
   path.header.frame_id = "map";
   for (const double x_m : {4.5, 4.0, 3.5, 3.0}) path.poses.push_back(inMap(x_m, 1.5, kPi));
   publisher.publish(path);
-  ASSERT_TRUE(spinUntil([this] { return base_->drives(); }, kDrive_s)) << base_->status.text;
+  ASSERT_TRUE(spinUntil([this] { return base_->drives(); }, kLongestWay_s)) << base_->status.text;
   publisher.publish(nav_msgs::Path());
   ASSERT_TRUE(spinUntil([this] { return base_->stands() && has(NavigatorStatus::IDLE); }));
 
   const std::string file = testing::TempDir() + "navigator_test_path.csv";
   std::ofstream(file) << "x_m,y_m\n4.5,1.5\n4.0,1.5\n3.5,1.5\n3.0,1.5\n";
   BackgroundCommand sender("exec " SEND_PATH " _file:=" + file + " _frame:=map");
-  EXPECT_TRUE(spinUntil([this] { return has(NavigatorStatus::ARRIVED); }, kDrive_s)) << base_->status.text;
+  EXPECT_TRUE(spinUntil([this] { return has(NavigatorStatus::ARRIVED); }, kLongestWay_s))
+      << base_->status.text;
   EXPECT_EQ(sender.waitFor(kLongWait_s), 0) << sender.output();
   EXPECT_LT(base_->distanceTo(3.0, 1.5), 0.05);
 }
 
 TEST_F(NavigatorNode, StopsWithinThreeTenthsOfASecondWhenTheOdometryIsSilentAndGoesOn) {
   send(inMap(5.0, 1.5, 0.0));
-  ASSERT_TRUE(spinUntil([this] { return base_->drives(); }, kDrive_s)) << base_->status.text;
+  ASSERT_TRUE(spinUntil([this] { return base_->drives(); }, kLongestWay_s)) << base_->status.text;
   base_->odometry_runs = false;
   ASSERT_TRUE(spinUntil([this] { return base_->stands(); }, kLongWait_s, 0.001));
   EXPECT_LT((ros::WallTime::now() - base_->last_odometry).toSec(), 0.3);
   EXPECT_TRUE(spinUntil([this] { return base_->says("no odometry for"); })) << base_->status.text;
   base_->odometry_runs = true;
-  ASSERT_TRUE(spinUntil([this] { return base_->drives(); }, kDrive_s)) << base_->status.text;
+  ASSERT_TRUE(spinUntil([this] { return base_->drives(); }, kLongestWay_s)) << base_->status.text;
 
   base_->tellVoState(VoStatus::LOST);
   EXPECT_TRUE(spinUntil([this] { return base_->stands() && base_->says("the localisation is lost"); }));
   base_->tellVoState(VoStatus::TRACKING);
-  ASSERT_TRUE(spinUntil([this] { return isDone(); }, kDrive_s)) << base_->status.text;
+  ASSERT_TRUE(spinUntil([this] { return isDone(); }, kLongestWay_s)) << base_->status.text;
   EXPECT_EQ(client_.getState(), actionlib::SimpleClientGoalState::SUCCEEDED) << client_.getState().getText();
 }
 
 TEST_F(NavigatorNode, AGoalThatCannotBeReachedIsAbortedWithItsReason) {
   send(inMap(2.1, -1.0, 0.0));  // inside the wall
-  ASSERT_TRUE(spinUntil([this] { return isDone(); }, kDrive_s)) << base_->status.text;
+  ASSERT_TRUE(spinUntil([this] { return isDone(); }, kLongestWay_s)) << base_->status.text;
   EXPECT_EQ(client_.getState(), actionlib::SimpleClientGoalState::ABORTED);
   EXPECT_NE(client_.getState().getText().find("the robot does not fit at the goal"), std::string::npos)
       << client_.getState().getText();
@@ -284,7 +286,7 @@ TEST_F(NavigatorNode, AGoalInAnUnknownFrameIsRefusedAndACancelledOneStops) {
   std_srvs::Empty nothing;
   EXPECT_TRUE(ros::service::call("clear_costmaps", nothing));
   send(inMap(4.0, -1.5, 0.0));
-  ASSERT_TRUE(spinUntil([this] { return base_->drives(); }, kDrive_s)) << base_->status.text;
+  ASSERT_TRUE(spinUntil([this] { return base_->drives(); }, kLongestWay_s)) << base_->status.text;
   client_.cancelGoal();
   ASSERT_TRUE(spinUntil([this] { return isDone(); }));
   EXPECT_EQ(client_.getState(), actionlib::SimpleClientGoalState::PREEMPTED);
