@@ -28,8 +28,10 @@ grid::OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message) {
   }
   Eigen::Isometry3d T_map_grid;
   tf2::fromMsg(info.origin, T_map_grid);
+  Eigen::Quaterniond turn;
+  tf2::fromMsg(info.origin.orientation, turn);
   const bool upright = T_map_grid.matrix().allFinite() && T_map_grid.linear()(2, 2) > 0.999 &&
-                       std::abs(T_map_grid.linear().determinant() - 1.0) < 1e-3;
+                       std::abs(turn.norm() - 1.0) < 1e-3;
   if (!(info.resolution > 0.0F) || !upright) {
     throw InputError(fmt::format(
         "the map's resolution is {} m and the third axis of its origin has z = {:.3f}; it must be "

@@ -13,7 +13,7 @@ namespace {
 
 using Kind = Measurement::Kind;
 constexpr double kAside_s = 1.0;
-constexpr double kHeard_s = 1.0;
+constexpr double kShown_s = 1.0;
 
 const std::vector<int> kAllFields = {0, 1, 2, 3, 4, 5};
 
@@ -146,7 +146,7 @@ Verdict Estimator::voteWhenDue(double time_s, EstimatorMemory& memory) const {
 void Estimator::holdUnshownScales(double time_s, EstimatorMemory& memory) const {
   bool way_shown = false, turn_shown = false;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    const bool heard = time_s - memory.channels[i].used_s < kHeard_s;
+    const bool heard = time_s - memory.channels[i].used_s < kShown_s;
     if (!heard || channels_[i].wheels || channels_[i].kind == Kind::kAcceleration) continue;
     turn_shown = true;
     way_shown = way_shown || channels_[i].kind != Kind::kRate;

@@ -118,10 +118,12 @@ void RangeCorrectionNode::handleMap(const nav_msgs::OccupancyGrid& message) {
 void RangeCorrectionNode::handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   tf2::fromMsg(message.pose.pose, T);
+  Eigen::Quaterniond turn;
+  tf2::fromMsg(message.pose.pose.orientation, turn);
   const Eigen::Matrix3d covariance = planarCovariance(
       Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance.data()));
   if (message.header.frame_id != params_.map_frame || !T.matrix().allFinite() ||
-      std::abs(T.linear().determinant() - 1.0) > 1e-3 || !covariance.allFinite() ||
+      std::abs(turn.norm() - 1.0) > 1e-3 || !covariance.allFinite() ||
       !(covariance.diagonal().minCoeff() > 0.0)) {
     ROS_ERROR_STREAM(name_ << ": initialpose refused: the pose must be in " << params_.map_frame
                            << ", with a quaternion of length 1 and variances above zero");
