@@ -67,7 +67,9 @@ ObstacleGridNode::ObstacleGridNode(ros::NodeHandle handle, ros::NodeHandle priva
 void ObstacleGridNode::handleDisparity(const stereo_msgs::DisparityImage::ConstPtr& message) {
   wait({"disparity", message->header.frame_id, message->header.stamp, steadyNow_s(),
         [this, message](const Eigen::Isometry3d& T_odom_base, const Eigen::Isometry3d& T_base_camera) {
-          if (!left_info_ || !right_info_) return;
+          if (!left_info_ || !right_info_)
+            throw InputError(
+                "disparity images, but no camera_info of both cameras; are they of one namespace?");
           const double start_s = steadyNow_s();
           const vision::StereoCalibration calibration = ros_io::toCalibration(*left_info_, *right_info_);
           const navigation::DisparityCamera camera{calibration.fx, calibration.fy,         calibration.cx,
@@ -146,6 +148,7 @@ bool ObstacleGridNode::use(const Waiting& waiting, bool last_chance) {
     return false;
   } catch (const InputError& error) {
     raise(waiting.input, true, error.what());
+    ++dropped_;
     return true;
   }
   ++used_;
@@ -204,7 +207,7 @@ void ObstacleGridNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& s
   for (const auto& problem : problems_.all())
     status.mergeSummary(problem.second.is_error ? Level::ERROR : Level::WARN, problem.second.text);
   status.add("messages used", used_);
-  status.add("messages dropped (no pose in time, or newer ones came)", dropped_);
+  status.add("messages dropped (no pose in time, newer ones came, or refused)", dropped_);
   status.addf("time of the newest disparity image [ms]", "%.2f", time_ms_);
 }
 
