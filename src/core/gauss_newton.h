@@ -10,12 +10,16 @@ namespace stereo_nav {
 /// T <- expMotion(delta) T. Only the lower triangle of the information is read. Nothing if the residuals do
 /// not determine the step.
 template <typename Matrix, typename Vector>
-std::optional<Vector> gaussNewtonStep(const Matrix& information, const Vector& gradient) {
-  const Eigen::LDLT<Matrix> solver(information);
-  if (solver.info() != Eigen::Success || !solver.isPositive()) return std::nullopt;
-  Vector step = solver.solve(-gradient);
+std::optional<Vector> gaussNewtonStep(const Eigen::LDLT<Matrix>& information, const Vector& gradient) {
+  if (information.info() != Eigen::Success || !information.isPositive()) return std::nullopt;
+  Vector step = information.solve(-gradient);
   if (!step.allFinite()) return std::nullopt;
   return step;
+}
+
+template <typename Matrix, typename Vector>
+std::optional<Vector> gaussNewtonStep(const Matrix& information, const Vector& gradient) {
+  return gaussNewtonStep(Eigen::LDLT<Matrix>(information), gradient);
 }
 
 }  // namespace stereo_nav

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -86,6 +87,8 @@ class WindowOptimizer {
   vision::StereoCalibration calibration_;
   Eigen::MatrixXd information_;  ///< reduced camera system, lower blocks
   Eigen::VectorXd gradient_;
+  Eigen::LDLT<Eigen::MatrixXd> factors_;  ///< of information_ in the last step
+  bool solved_ = false;                   ///< the last optimise() has determined all
   std::vector<Elimination> eliminations_;
   std::vector<CrossBlock> blocks_;
   std::vector<Eigen::Index> late_at_;  ///< first variable of T_late_camera per frame; negative without one
