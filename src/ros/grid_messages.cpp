@@ -45,7 +45,7 @@ grid::OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message) {
   geometry.resolution_m = double{info.resolution};
   geometry.origin_x_m = T.translation().x();
   geometry.origin_y_m = T.translation().y();
-  geometry.origin_yaw_rad = Eigen::Rotation2Dd(T.linear()).angle();
+  geometry.origin_yaw_rad = yawOf(T);
   grid::OccupancyGrid grid(geometry);
   grid.cells.assign(message.data.begin(), message.data.end());
   return grid;

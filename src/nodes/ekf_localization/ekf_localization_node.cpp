@@ -9,6 +9,7 @@
 
 #include "nodes/ekf_localization/filtered_messages.h"
 #include "ros/parameter_server.h"
+#include "ros/pose_messages.h"
 #include "ros/setup_checks.h"
 #include "stereo_nav/ros/conversions.h"
 
@@ -164,18 +165,12 @@ void EkfLocalizationNode::handleTransforms(const ros::MessageEvent<const tf2_msg
 }
 
 void EkfLocalizationNode::handleSetPose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  const std::string frame = ros_io::withoutSlash(message.header.frame_id);
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  tf2::fromMsg(message.pose.pose, T);
-  const Matrix6d covariance =
-      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance.data());
-  if ((!frame.empty() && frame != config_.params.world_frame) || !T.matrix().allFinite() ||
-      std::abs(T.linear().determinant() - 1.0) > 1e-3 || !covariance.allFinite()) {
-    ROS_ERROR_STREAM(name_ << ": set_pose refused: the pose must be in " << config_.params.world_frame
-                           << " with numbers and a quaternion of length 1");
+  const ros_io::GivenPose pose = ros_io::readPose(message, config_.params.world_frame);
+  if (!pose.refusal.empty()) {
+    ROS_ERROR_STREAM(name_ << ": set_pose refused: " << pose.refusal);
     return;
   }
-  filter_.setPose(T, covariance);
+  filter_.setPose(pose.T_odom_base, pose.covariance);
   messages_.reset();
 }
 

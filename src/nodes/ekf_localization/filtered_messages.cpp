@@ -2,12 +2,10 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include "ros/pose_messages.h"
+
 namespace stereo_nav::nodes {
 namespace {
-
-void fill(const Matrix6d& covariance, boost::array<double, 36>& message) {
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
-}
 
 geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& v) {
   geometry_msgs::Vector3 message;
@@ -26,10 +24,10 @@ nav_msgs::Odometry toOdometry(const estimation::FusedEstimate& estimate,
   odometry.header.frame_id = params.world_frame;
   odometry.child_frame_id = params.base_link_frame;
   odometry.pose.pose = tf2::toMsg(estimate.T_world_base);
-  fill(estimate.pose_covariance, odometry.pose.covariance);
+  ros_io::fillCovariance(estimate.pose_covariance, odometry.pose.covariance);
   odometry.twist.twist.linear = toMessage(estimate.twist.head<3>());
   odometry.twist.twist.angular = toMessage(estimate.twist.tail<3>());
-  fill(estimate.twist_covariance, odometry.twist.covariance);
+  ros_io::fillCovariance(estimate.twist_covariance, odometry.twist.covariance);
   return odometry;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/planar_motion.h"
+#include "ros/pose_messages.h"
 
 namespace stereo_nav::nodes {
 namespace {
@@ -19,10 +20,6 @@ ros::Time stampOf(const LaserReading& reading) {
   return ros::Time().fromNSec(static_cast<std::uint64_t>(reading.stamp_ns));
 }
 
-void fill(const Matrix6d& covariance, boost::array<double, 36>& message) {
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
-}
-
 }  // namespace
 
 nav_msgs::Odometry toOdometry(const LaserReading& reading, const std::string& odom_frame,
@@ -33,23 +30,12 @@ nav_msgs::Odometry toOdometry(const LaserReading& reading, const std::string& od
   odometry.header.frame_id = odom_frame;
   odometry.child_frame_id = base_frame;
   odometry.pose.pose = tf2::toMsg(inSpace(result.T_odom_base));
-  fill(spatialCovariance(result.pose_covariance), odometry.pose.covariance);
+  ros_io::fillCovariance(spatialCovariance(result.pose_covariance), odometry.pose.covariance);
   odometry.twist.twist.linear.x = result.twist.x();
   odometry.twist.twist.linear.y = result.twist.y();
   odometry.twist.twist.angular.z = result.twist.z();
-  fill(spatialCovariance(result.twist_covariance), odometry.twist.covariance);
+  ros_io::fillCovariance(spatialCovariance(result.twist_covariance), odometry.twist.covariance);
   return odometry;
-}
-
-std::optional<Eigen::Isometry3d> toIsometry(const geometry_msgs::Pose& pose) {
-  constexpr double kUnitNorm = 0.01;
-  const Eigen::Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
-  const Eigen::Vector3d position(pose.position.x, pose.position.y, pose.position.z);
-  if (!position.allFinite() || !(std::abs(q.norm() - 1.0) < kUnitNorm)) return std::nullopt;
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = q.normalized().toRotationMatrix();
-  T.translation() = position;
-  return T;
 }
 
 LaserStatus toStatus(const LaserReading& reading, const ScanCounts& counts, const std::string& laser_frame) {

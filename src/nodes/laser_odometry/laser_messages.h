@@ -2,7 +2,6 @@
 
 #include <nav_msgs/Odometry.h>
 
-#include <optional>
 #include <string>
 
 #include "nodes/laser_odometry/laser_session.h"
@@ -14,9 +13,6 @@ namespace stereo_nav::nodes {
 /// nav_msgs/Odometry has them; stamped as the scan is.
 nav_msgs::Odometry toOdometry(const LaserReading& reading, const std::string& odom_frame,
                               const std::string& base_frame);
-
-/// Nothing where the numbers are no pose.
-std::optional<Eigen::Isometry3d> toIsometry(const geometry_msgs::Pose& pose);
 
 LaserStatus toStatus(const LaserReading& reading, const ScanCounts& counts, const std::string& laser_frame);
 

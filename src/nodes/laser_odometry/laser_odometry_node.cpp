@@ -11,7 +11,7 @@
 #include "nodes/laser_odometry/laser_messages.h"
 #include "ros/laser_scan_message.h"
 #include "ros/parameter_server.h"
-#include "ros/set_pose_request.h"
+#include "ros/pose_messages.h"
 #include "ros/setup_checks.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/conversions.h"
@@ -119,7 +119,7 @@ void LaserOdometryNode::addScan(const sensor_msgs::LaserScan& scan) {
 }
 
 void LaserOdometryNode::handleWheels(const nav_msgs::Odometry::ConstPtr& message) {
-  const auto T_wheels_body = toIsometry(message->pose.pose);
+  const auto T_wheels_body = ros_io::toPose(message->pose.pose);
   if (!T_wheels_body) {
     health_.set(
         "wheels", false,
@@ -173,7 +173,7 @@ bool LaserOdometryNode::handleReset(std_srvs::Empty::Request& /*request*/,
 }
 
 bool LaserOdometryNode::handleSetPose(SetPose::Request& request, SetPose::Response& response) {
-  const ros_io::SetPoseRequest pose = ros_io::readSetPose(request, params_.odom_frame);
+  const ros_io::GivenPose pose = ros_io::readPose(request.pose, params_.odom_frame);
   response.message = pose.refusal;
   if (!pose.refusal.empty()) {
     ROS_ERROR_STREAM(name_ << ": laser/set_pose refused: " << pose.refusal);

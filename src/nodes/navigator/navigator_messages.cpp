@@ -1,41 +1,18 @@
 #include "nodes/navigator/navigator_messages.h"
 
-#include <fmt/format.h>
+#include <tf2/utils.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "stereo_nav/core/input_error.h"
-
 namespace stereo_nav::nodes {
 namespace {
 
 constexpr double kUnitTolerance = 0.01;
 
-double yawOf(const geometry_msgs::Quaternion& q) {
-  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
-}
-
 }  // namespace
-
-grid::OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message) {
-  grid::OccupancyGrid grid;
-  grid.geometry.width = static_cast<int>(message.info.width);
-  grid.geometry.height = static_cast<int>(message.info.height);
-  grid.geometry.resolution_m = double{message.info.resolution};
-  grid.geometry.origin_x_m = message.info.origin.position.x;
-  grid.geometry.origin_y_m = message.info.origin.position.y;
-  grid.geometry.origin_yaw_rad = yawOf(message.info.origin.orientation);
-  if (message.data.size() != grid.geometry.size() || message.data.empty() ||
-      !(message.info.resolution > 0.0F))
-    throw InputError(fmt::format("a grid of {} x {} cells of {} m holds {} values; its sender is wrong",
-                                 message.info.width, message.info.height, message.info.resolution,
-                                 message.data.size()));
-  grid.cells.assign(message.data.begin(), message.data.end());
-  return grid;
-}
 
 std::optional<FloorPose> toFloorPose(const geometry_msgs::Pose& pose) {
   const auto& q = pose.orientation;
@@ -44,7 +21,7 @@ std::optional<FloorPose> toFloorPose(const geometry_msgs::Pose& pose) {
     return std::nullopt;
   if (norm > 0.0 && std::abs(norm - 1.0) > kUnitTolerance) return std::nullopt;
   FloorPose result{{pose.position.x, pose.position.y}, std::nullopt};
-  if (norm > 0.0) result.heading_rad = yawOf(q);
+  if (norm > 0.0) result.heading_rad = tf2::getYaw(q);
   return result;
 }
 
@@ -78,7 +55,7 @@ nav_msgs::Path toPath(const std::vector<Eigen::Vector2d>& points, const std::str
 
 Eigen::Isometry2d onFloor(const geometry_msgs::Pose& pose) {
   Eigen::Isometry2d T = Eigen::Isometry2d::Identity();
-  T.linear() = Eigen::Rotation2Dd(yawOf(pose.orientation)).toRotationMatrix();
+  T.linear() = Eigen::Rotation2Dd(tf2::getYaw(pose.orientation)).toRotationMatrix();
   T.translation() = Eigen::Vector2d(pose.position.x, pose.position.y);
   return T;
 }

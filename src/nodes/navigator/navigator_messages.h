@@ -9,14 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "grid/occupancy_grid.h"
 #include "navigation/control/drive_model.h"
 #include "navigation/planner/plan.h"
+#include "ros/grid_messages.h"
 
 namespace stereo_nav::nodes {
 
-/// Throws InputError where the cells are not as many as width and height say.
-grid::OccupancyGrid toGrid(const nav_msgs::OccupancyGrid& message);
+using ros_io::toGrid;
 
 /// A pose on the floor. An orientation of zeros has no heading. Nothing where a number is not finite, or the
 /// orientation is no unit quaternion.

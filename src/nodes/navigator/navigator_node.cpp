@@ -151,7 +151,7 @@ bool NavigatorNode::handleMakePlan(nav_msgs::GetPlan::Request& request,
       start = {pose.position_m, pose.heading_rad.value_or(0.0)};
     } else if (situation) {
       const Eigen::Isometry2d T_plan_base = situation->T_map_odom * situation->state.T_world_base;
-      start = {T_plan_base.translation(), logPlanar(T_plan_base).z()};
+      start = {T_plan_base.translation(), yawOf(T_plan_base)};
     }
     const FloorPose goal = inputs_.inPlanFrame(request.goal);
     const navigation::Plan plan = planner_.between(start, {goal.position_m, goal.heading_rad});
@@ -224,7 +224,7 @@ void NavigatorNode::publishFeedback(const navigator::Situation& situation) {
   move_base_msgs::MoveBaseFeedback feedback;
   feedback.base_position.header.frame_id = inputs_.planFrame();
   feedback.base_position.header.stamp = ros::Time(situation.odometry_stamp_s);
-  feedback.base_position.pose = toMessage({T_plan_base.translation(), logPlanar(T_plan_base).z()});
+  feedback.base_position.pose = toMessage({T_plan_base.translation(), yawOf(T_plan_base)});
   server_.publishFeedback(feedback);
 }
 

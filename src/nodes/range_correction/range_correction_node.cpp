@@ -10,6 +10,7 @@
 #include "core/planar_motion.h"
 #include "ros/grid_messages.h"
 #include "ros/parameter_server.h"
+#include "ros/pose_messages.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/conversions.h"
 
@@ -116,20 +117,15 @@ void RangeCorrectionNode::handleMap(const nav_msgs::OccupancyGrid& message) {
 }
 
 void RangeCorrectionNode::handlePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  tf2::fromMsg(message.pose.pose, T);
-  Eigen::Quaterniond turn;
-  tf2::fromMsg(message.pose.pose.orientation, turn);
-  const Eigen::Matrix3d covariance = planarCovariance(
-      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance.data()));
-  if (message.header.frame_id != params_.map_frame || !T.matrix().allFinite() ||
-      std::abs(turn.norm() - 1.0) > 1e-3 || !covariance.allFinite() ||
-      !(covariance.diagonal().minCoeff() > 0.0)) {
-    ROS_ERROR_STREAM(name_ << ": initialpose refused: the pose must be in " << params_.map_frame
-                           << ", with a quaternion of length 1 and variances above zero");
+  ros_io::GivenPose pose = ros_io::readPose(message, params_.map_frame);
+  const Eigen::Matrix3d covariance = planarCovariance(pose.covariance);
+  if (pose.refusal.empty() && !(covariance.diagonal().minCoeff() > 0.0))
+    pose.refusal = "the variances of x, y and yaw must be above zero";
+  if (!pose.refusal.empty()) {
+    ROS_ERROR_STREAM(name_ << ": initialpose refused: " << pose.refusal);
     return;
   }
-  corrector_.setPose(planarPart(T), covariance);
+  corrector_.setPose(planarPart(pose.T_odom_base), covariance);
   for (Finder& finder : finders_) judge(finder, RangeOutcome::kUsed);
 }
 

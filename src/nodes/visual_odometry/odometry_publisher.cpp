@@ -12,6 +12,7 @@
 
 #include "core/angles.h"
 #include "nodes/visual_odometry/debug_views.h"
+#include "ros/pose_messages.h"
 
 namespace stereo_nav::nodes {
 namespace {
@@ -22,11 +23,6 @@ static_assert(static_cast<int>(State::kInitialising) == VoStatus::INITIALISING &
                   static_cast<int>(State::kCoasting) == VoStatus::COASTING &&
                   static_cast<int>(State::kLost) == VoStatus::LOST,
               "VoStatus.state carries the value of odometry::State");
-
-/// ROS covariances are row-major, which makes no difference since these are symmetric.
-void fillCovariance(const Matrix6d& covariance, boost::array<double, 36>& message) {
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
-}
 
 geometry_msgs::Vector3 toVector(const Eigen::Vector3d& v) {
   geometry_msgs::Vector3 message;
@@ -76,10 +72,10 @@ void OdometryPublisher::publishOdometry(const ros_io::FrameMessages& frame,
   odometry->header.frame_id = params_.odom_frame;
   odometry->child_frame_id = params_.base_frame;
   odometry->pose.pose = tf2::toMsg(base.T_odom_base);
-  fillCovariance(base.pose_covariance, odometry->pose.covariance);
+  ros_io::fillCovariance(base.pose_covariance, odometry->pose.covariance);
   odometry->twist.twist.linear = toVector(base.twist.head<3>());
   odometry->twist.twist.angular = toVector(base.twist.tail<3>());
-  fillCovariance(base.twist_covariance, odometry->twist.covariance);
+  ros_io::fillCovariance(base.twist_covariance, odometry->twist.covariance);
   odometry_publisher_.publish(odometry);
   publishPath(odometry->header, odometry->pose.pose);
 

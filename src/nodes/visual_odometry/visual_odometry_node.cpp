@@ -6,7 +6,7 @@
 
 #include "core/rig_file.h"
 #include "ros/parameter_server.h"
-#include "ros/set_pose_request.h"
+#include "ros/pose_messages.h"
 #include "stereo_nav/ros/conversions.h"
 
 namespace stereo_nav::nodes {
@@ -115,7 +115,7 @@ bool VisualOdometryNode::handleReset(std_srvs::Empty::Request&, std_srvs::Empty:
 }
 
 bool VisualOdometryNode::handleSetPose(SetPose::Request& request, SetPose::Response& response) {
-  const ros_io::SetPoseRequest pose = ros_io::readSetPose(request, params_.odom_frame);
+  const ros_io::GivenPose pose = ros_io::readPose(request.pose, params_.odom_frame);
   response.message = pose.refusal;
   if (pose.refusal.empty()) {
     const std::lock_guard<std::mutex> lock(session_mutex_);

@@ -3,16 +3,9 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include "core/planar_motion.h"
+#include "ros/pose_messages.h"
 
 namespace stereo_nav::nodes {
-namespace {
-
-void fill(const Matrix6d& covariance, boost::array<double, 36>& message) {
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.data()) = covariance;
-}
-
-}  // namespace
-
 nav_msgs::Odometry toOdometry(const odometry::WheelOdometryResult& result, const std::string& odom_frame,
                               const std::string& base_frame) {
   nav_msgs::Odometry odometry;
@@ -20,11 +13,12 @@ nav_msgs::Odometry toOdometry(const odometry::WheelOdometryResult& result, const
   odometry.header.frame_id = odom_frame;
   odometry.child_frame_id = base_frame;
   odometry.pose.pose = tf2::toMsg(inSpace(result.T_odom_base));
-  fill(spatialCovariance(inAxesOf(result.T_odom_base, result.pose_covariance)), odometry.pose.covariance);
+  ros_io::fillCovariance(spatialCovariance(inAxesOf(result.T_odom_base, result.pose_covariance)),
+                         odometry.pose.covariance);
   odometry.twist.twist.linear.x = result.twist.x();
   odometry.twist.twist.linear.y = result.twist.y();
   odometry.twist.twist.angular.z = result.twist.z();
-  fill(spatialCovariance(result.twist_covariance), odometry.twist.covariance);
+  ros_io::fillCovariance(spatialCovariance(result.twist_covariance), odometry.twist.covariance);
   return odometry;
 }
 

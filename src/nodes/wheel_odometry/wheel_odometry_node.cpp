@@ -10,7 +10,7 @@
 #include "kinematics/drive_file.h"
 #include "nodes/wheel_odometry/wheel_messages.h"
 #include "ros/parameter_server.h"
-#include "ros/set_pose_request.h"
+#include "ros/pose_messages.h"
 #include "ros/setup_checks.h"
 #include "ros/wheel_ticks.h"
 #include "stereo_nav/core/input_error.h"
@@ -130,7 +130,7 @@ void WheelOdometryNode::watch(const odometry::WheelOdometryResult& result) {
 }
 
 bool WheelOdometryNode::handleSetPose(SetPose::Request& request, SetPose::Response& response) {
-  const ros_io::SetPoseRequest pose = ros_io::readSetPose(request, params_.odom_frame);
+  const ros_io::GivenPose pose = ros_io::readPose(request.pose, params_.odom_frame);
   response.message = pose.refusal;
   if (!pose.refusal.empty()) {
     ROS_ERROR_STREAM(name_ << ": wheel/set_pose refused: " << pose.refusal);
