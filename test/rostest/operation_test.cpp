@@ -137,7 +137,7 @@ TEST(Operation, AMistakeInTheRigFileIsNamed) {
       {"mounting: {camera: {z_m: high}}", "mounting: camera.z_m is 'high', must be a number"},
       {"disparity: {disparity_range: 8}", "disparity: disparity_range is 8, allowed is 32 to 4096 px"},
       {"base: {ranges: 1, range_1: {name: front}}\nrange_finders: {finders: 1, finder_1: {name: front}}",
-       "two sensors have the frame 'range_front'"},
+       "two parts have the frame 'range_front'"},
       {"range_finders: {finders: 1, finder_1: {name: a/b}}", "name 'a/b' cannot be part of a topic"},
       {"just a text", "a rig file holds sections"},
   };
