@@ -71,6 +71,13 @@ Matrix6d adjoint(const Eigen::Isometry3d& T_a_b) {
   return result;
 }
 
+Matrix6d turned(const Eigen::Matrix3d& R_a_b, const Matrix6d& covariance) {
+  Matrix6d both = Matrix6d::Zero();
+  both.topLeftCorner<3, 3>() = R_a_b;
+  both.bottomRightCorner<3, 3>() = R_a_b;
+  return both * covariance * both.transpose();
+}
+
 Matrix6d inverseLeftJacobian(const Vector6d& twist) {
   Matrix6d ad = Matrix6d::Zero();  // the adjoint of the twist itself
   ad.topLeftCorner<3, 3>() = hat(twist.tail<3>());

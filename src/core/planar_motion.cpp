@@ -30,8 +30,12 @@ Eigen::Isometry2d expPlanar(const Eigen::Vector3d& twist) {
   return T;
 }
 
+double yawOf(const Eigen::Isometry2d& T) {
+  return std::atan2(T(1, 0), T(0, 0));
+}
+
 Eigen::Vector3d logPlanar(const Eigen::Isometry2d& T) {
-  const double angle_rad = std::atan2(T(1, 0), T(0, 0));
+  const double angle_rad = yawOf(T);
   const Arc arc = arcOf(angle_rad);
   const double scale = 1.0 / (arc.along * arc.along + arc.across * arc.across);
   const Eigen::Vector2d t = T.translation();

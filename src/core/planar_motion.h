@@ -12,6 +12,9 @@ namespace stereo_nav {
 Eigen::Isometry2d expPlanar(const Eigen::Vector3d& twist);
 Eigen::Vector3d logPlanar(const Eigen::Isometry2d& T);
 
+/// The rotation of a planar pose, from -pi to pi.
+double yawOf(const Eigen::Isometry2d& T);
+
 /// The part of a pose in space that lies in the x-y plane; its rotation is that of the x axis, seen from
 /// above.
 Eigen::Isometry2d planarPart(const Eigen::Isometry3d& T);

@@ -8,13 +8,6 @@ namespace {
 
 constexpr double kLeastSigma = 1e-6;  ///< m, rad: what filters can still invert
 
-Matrix6d turned(const Eigen::Matrix3d& R, const Matrix6d& covariance) {
-  Matrix6d both = Matrix6d::Zero();
-  both.topLeftCorner<3, 3>() = R;
-  both.bottomRightCorner<3, 3>() = R;
-  return both * covariance * both.transpose();
-}
-
 Matrix6d diagonal(double translation_sigma, double rotation_sigma) {
   Vector6d variances;
   variances.head<3>().setConstant(translation_sigma * translation_sigma);

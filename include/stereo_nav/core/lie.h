@@ -37,6 +37,10 @@ Vector6d logMotion(const Eigen::Isometry3d& T);
 /// T_a_b.
 Matrix6d adjoint(const Eigen::Isometry3d& T_a_b);
 
+/// A covariance of (translation, rotation) whose axes are those of frame b, in the axes of frame a: both
+/// turn, neither moves.
+Matrix6d turned(const Eigen::Matrix3d& R_a_b, const Matrix6d& covariance);
+
 /// d log(exp(e) T) / d e at e = 0, given twist = log T: the inverse of the left Jacobian of SE(3), as a
 /// series to second order in the twist. The error is the fourth power of the twist over 720, which is below
 /// 1e-9 for the motions between two frames.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/angles.h"
+#include "core/roll_pitch_yaw.h"
 #include "estimation/ekf/odometry_motion.h"
 #include "estimation/ekf/rest.h"
 
@@ -95,10 +96,7 @@ EstimatorMemory Estimator::initial(double time_s) const {
   if (!params_.initial_state) return memory;
   const auto& start = *params_.initial_state;
   state.T_world_base.translation() = start.head<3>();
-  state.T_world_base.linear() = (Eigen::AngleAxisd(start[5], Eigen::Vector3d::UnitZ()) *
-                                 Eigen::AngleAxisd(start[4], Eigen::Vector3d::UnitY()) *
-                                 Eigen::AngleAxisd(start[3], Eigen::Vector3d::UnitX()))
-                                    .toRotationMatrix();
+  state.T_world_base.linear() = RollPitchYaw{start[3], start[4], start[5]}.rotation();
   state.velocity = start.segment<3>(6);
   state.rate = start.segment<3>(9);
   state.acceleration = start.segment<3>(12);
@@ -258,9 +256,7 @@ void Estimator::openUnknownPose(const Measurement& measurement, EstimatorMemory&
   }
   if (opened.isZero()) return;
   const Eigen::Matrix3d R = memory.state.T_world_base.linear();
-  Matrix6d added = Matrix6d::Zero();
-  added.topLeftCorner<3, 3>() = R.transpose() * opened.head<3>().asDiagonal() * R;
-  added.bottomRightCorner<3, 3>() = R.transpose() * opened.tail<3>().asDiagonal() * R;
+  const Matrix6d added = turned(R.transpose(), opened.asDiagonal());
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
       if (layout_.at(i) >= 0 && layout_.at(j) >= 0)
@@ -272,11 +268,7 @@ void Estimator::openUnknownPose(const Measurement& measurement, EstimatorMemory&
 
 void Estimator::setPose(const Eigen::Isometry3d& T_world_base, const Matrix6d& covariance,
                         EstimatorMemory& memory) const {
-  const Eigen::Matrix3d R = T_world_base.linear();
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = R.transpose();
-  turn.bottomRightCorner<3, 3>() = R.transpose();
-  const Matrix6d in_base = turn * covariance * turn.transpose();
+  const Matrix6d in_base = turned(T_world_base.linear().transpose(), covariance);
   State& state = memory.state;
   state.T_world_base = T_world_base;
   for (int i = 0; i < 6; ++i) {

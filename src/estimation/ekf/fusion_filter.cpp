@@ -14,13 +14,6 @@ constexpr double kSayAgain_s = 10.0;
 constexpr int kRefusedInSuccession = 3;  // one in a thousand is refused by chance
 constexpr double kClockBack_s = 1.0;
 
-Matrix6d inWorldAxes(const Eigen::Matrix3d& R, const Matrix6d& covariance) {
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = R;
-  turn.bottomRightCorner<3, 3>() = R;
-  return turn * covariance * turn.transpose();
-}
-
 }  // namespace
 
 FusionFilter::FusionFilter(const FilterParams& params, const StateParts& parts, std::vector<Channel> channels)
@@ -146,7 +139,7 @@ FusedEstimate FusionFilter::estimate(double time_s) const {
   estimate.time_s = state->time_s;
   estimate.T_world_base = state->T_world_base;
   estimate.pose_covariance =
-      inWorldAxes(state->T_world_base.linear(), layout().covarianceOf(*state, error_row::kPosition, 6));
+      turned(state->T_world_base.linear(), layout().covarianceOf(*state, error_row::kPosition, 6));
   estimate.twist << state->velocity, state->rate;
   estimate.twist_covariance = layout().covarianceOf(*state, error_row::kVelocity, 6);
   const Eigen::Vector3d scale_variances = layout().covarianceOf(*state, error_row::kScale, 3).diagonal();

@@ -9,14 +9,6 @@ constexpr double kLeastSigma_m = 1e-4;
 constexpr double kLeastSigma_rad = 1e-5;
 constexpr double kUselessVariance = 1e5;
 
-/// From the axes of the odometry's frame to those of base_link.
-Matrix6d inBaseAxes(const Eigen::Isometry3d& T_odometry_base, const Matrix6d& covariance) {
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = T_odometry_base.linear().transpose();
-  turn.bottomRightCorner<3, 3>() = T_odometry_base.linear().transpose();
-  return turn * covariance * turn.transpose();
-}
-
 /// The nearest covariance whose variances are not below what an odometry can reach.
 Matrix6d withoutNegativeParts(const Matrix6d& difference) {
   Vector6d least;
@@ -68,10 +60,10 @@ OdometryMotion motionSince(const ChannelMemory& memory, const Measurement& measu
   result.duration_s = measurement.time_s - memory.anchored_s;
   if (grows(memory, measurement)) {
     const Matrix6d carry = adjoint(result.motion.inverse());
-    const Matrix6d now =
-        inBaseAxes(measurement.pose, withoutUnknown(measurement.covariance, measurement.fields));
-    const Matrix6d then =
-        inBaseAxes(memory.T_odometry_base, withoutUnknown(memory.odometry_covariance, measurement.fields));
+    const Matrix6d now = turned(measurement.pose.linear().transpose(),
+                                withoutUnknown(measurement.covariance, measurement.fields));
+    const Matrix6d then = turned(memory.T_odometry_base.linear().transpose(),
+                                 withoutUnknown(memory.odometry_covariance, measurement.fields));
     result.covariance = withoutNegativeParts(now - carry * then * carry.transpose());
   } else if (measurement.twist_covariance && usable(*measurement.twist_covariance, measurement.fields)) {
     result.covariance = withoutUnknown(*measurement.twist_covariance, measurement.fields) *

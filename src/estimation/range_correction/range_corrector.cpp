@@ -10,10 +10,6 @@ namespace {
 
 constexpr double kCertain = 0.95;
 
-double yawOf(const Eigen::Isometry2d& T) {
-  return Eigen::Rotation2Dd(T.linear()).angle();
-}
-
 /// A vector turned by 90 degrees: what it changes by with the yaw.
 Eigen::Vector2d turned(const Eigen::Vector2d& v) {
   return {-v.y(), v.x()};

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angles.h"
+#include "core/planar_motion.h"
 #include "stereo_nav/core/input_error.h"
 
 namespace stereo_nav::navigator {
@@ -19,10 +20,6 @@ std::vector<Eigen::Vector2d> moved(const std::vector<Eigen::Vector2d>& points, c
   std::vector<Eigen::Vector2d> result;
   for (const auto& point : points) result.push_back(T * point);
   return result;
-}
-
-double yawOf(const Eigen::Isometry2d& T) {
-  return std::atan2(T.linear()(1, 0), T.linear()(0, 0));
 }
 
 }  // namespace

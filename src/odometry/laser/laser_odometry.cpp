@@ -223,7 +223,7 @@ std::string LaserOdometry::refusal(const Registration& registration) const {
 
 bool LaserOdometry::isKeyframe() const {
   const Eigen::Isometry2d T_keyframe_base = T_odom_keyframe_.inverse() * filter_.state().T_odom_base();
-  const double turn_rad = std::abs(std::atan2(T_keyframe_base(1, 0), T_keyframe_base(0, 0)));
+  const double turn_rad = std::abs(yawOf(T_keyframe_base));
   return T_keyframe_base.translation().norm() > params_.keyframe_distance_m ||
          turn_rad > params_.keyframe_turn_deg * kRadPerDeg;
 }

@@ -65,7 +65,7 @@ Eigen::Matrix3d PoseFilter::poseCovariance() const {
 
 void PoseFilter::setPose(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance) {
   state_.p_odom = T_odom_base.translation();
-  state_.yaw_rad = std::atan2(T_odom_base(1, 0), T_odom_base(0, 0));
+  state_.yaw_rad = yawOf(T_odom_base);
   covariance_.topRows<6>().setZero();
   covariance_.leftCols<6>().setZero();
   covariance_.topLeftCorner<3, 3>() = covariance;
@@ -173,7 +173,7 @@ void PoseFilter::predict(const MeasuredMotion& motion, double unseen_s) {
 void PoseFilter::move(const Eigen::Isometry2d& T_before_now, const Eigen::Matrix3d& covariance) {
   const Eigen::Vector2d step = Eigen::Rotation2Dd(state_.yaw_rad) * T_before_now.translation();
   state_.p_odom += step;
-  state_.yaw_rad += std::atan2(T_before_now(1, 0), T_before_now(0, 0));
+  state_.yaw_rad += yawOf(T_before_now);
   transform(errorsAfter(step));
   covariance_.block<3, 3>(3, 3) += inAxesOf(state_.T_odom_base(), covariance);
 }

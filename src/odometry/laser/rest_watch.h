@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/planar_motion.h"
+
 namespace stereo_nav::odometry {
 
 /// Whether a base has stayed where it was for a second: within what the noise of a scan feigns.
@@ -14,8 +16,7 @@ class RestWatch {
     constexpr double kStill_m = 0.01, kStill_rad = 0.01, kRest_s = 1.0;
     if (since_) {
       const Eigen::Isometry2d moved = since_->T_odom_base.inverse() * T_odom_base;
-      const bool still = moved.translation().norm() < kStill_m &&
-                         std::abs(std::atan2(moved(1, 0), moved(0, 0))) < kStill_rad;
+      const bool still = moved.translation().norm() < kStill_m && std::abs(yawOf(moved)) < kStill_rad;
       if (still && time_s >= since_->time_s) return time_s - since_->time_s >= kRest_s;
     }
     since_ = Place{time_s, T_odom_base};
