@@ -1,10 +1,10 @@
 #include "tools/evaluate/laser_run.h"
 
-#include <chrono>
 #include <filesystem>
 
 #include "core/angles.h"
 #include "core/planar_motion.h"
+#include "core/processor_time.h"
 #include "odometry/laser/laser_odometry.h"
 #include "odometry/laser/motion_covariance.h"
 #include "ros/laser_feed.h"
@@ -16,7 +16,6 @@
 namespace stereo_nav::tools {
 namespace {
 
-using LaserClock = std::chrono::steady_clock;
 using odometry::Matrix9d;
 
 /// What the scans told of their uncertainty, for the motion between any two of them.
@@ -52,10 +51,10 @@ LaserPass laserPass(const odometry::LaserParams& params, const ros_io::LaserReco
   LaserPass result;
   for (const odometry::LaserScan& scan : recording.scans()) {
     if (with_prior) feed.upTo(scan.time_s + scan.sweep_s());
-    const auto start = LaserClock::now();
+    const double start_ms = processorTime_ms();
     const odometry::LaserOdometryResult estimate = odometry.process(scan, recording.T_base_laser());
     eval::FrameRecord frame;
-    frame.timing.frame_ms = std::chrono::duration<double, std::milli>(LaserClock::now() - start).count();
+    frame.timing.frame_ms = processorTime_ms() - start_ms;
     frame.time_s = estimate.time_s;
     frame.clock_offset_s = recording.robot().clock().offset_s(estimate.time_s);
     frame.T_odom_base = inSpace(estimate.T_odom_base);
