@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace stereo_nav::odometry {
 namespace {
@@ -15,6 +16,8 @@ constexpr int kCoarser = 1;
 /// Cells as wide as this many standard deviations: three of them hold eight, which keeps the axis of the
 /// points that of the wall.
 constexpr double kCellSigmas = 2.7;
+/// So many empty cells may stay.
+constexpr std::size_t kLeastCells = 1000;
 
 std::uint64_t keyOf(int ix, int iy) {
   return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ix)) << 32U) | static_cast<std::uint32_t>(iy);
@@ -39,8 +42,25 @@ void LineMap::add(const std::vector<Eigen::Vector2d>& points_map) {
     change(scans_.front(), -1.0);
     scans_.pop_front();
   }
+  for (int level = 0; level < kLevels; ++level) forgetEmptyCells(level);
   change(points_map, 1.0);
   scans_.push_back(points_map);
+}
+
+/// Scans that leave the map and look-ups in the open leave empty cells behind.
+void LineMap::forgetEmptyCells(int level) {
+  Grid& grid = grids_[static_cast<std::size_t>(level)];
+  std::size_t& forget_at = forget_at_[static_cast<std::size_t>(level)];
+  if (grid.size() < forget_at) return;
+  for (auto entry = grid.begin(); entry != grid.end();)
+    entry = entry->second.n < 0.5 ? grid.erase(entry) : std::next(entry);
+  forget_at = 2 * grid.size() + kLeastCells;
+}
+
+std::size_t LineMap::cells() const {
+  std::size_t sum = 0;
+  for (const Grid& grid : grids_) sum += grid.size();
+  return sum;
 }
 
 void LineMap::change(const std::vector<Eigen::Vector2d>& points_map, double sign) {

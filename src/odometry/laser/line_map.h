@@ -41,9 +41,11 @@ class LineMap {
   int levelFor(double sigma_m) const;
   /// The line at `p_map` on `level`, or on the next coarser ones; nothing where the map holds none there.
   const MapLine* lineAt(const Eigen::Vector2d& p_map, int level) const;
+  /// Cells in memory, of all levels.
+  std::size_t cells() const;
   double cell_m(int level) const { return cell_m_ * static_cast<double>(1 << level); }
 
-  /// Whether a point lies in the cell of `level` at `p_map`.
+  /// The points of the scans that are kept, the oldest scan first.
   const std::deque<std::vector<Eigen::Vector2d>>& scans() const { return scans_; }
 
  private:
@@ -57,6 +59,7 @@ class LineMap {
   using Grid = std::unordered_map<std::uint64_t, Cell>;
 
   void change(const std::vector<Eigen::Vector2d>& points_map, double sign);
+  void forgetEmptyCells(int level);
   void addTo(int level, const Eigen::Vector2d& p_map, double sign);
   std::optional<MapLine> fit(int level, int ix, int iy) const;
 
@@ -64,6 +67,7 @@ class LineMap {
   std::size_t most_keyframes_;
   std::uint64_t changes_ = 0;
   mutable std::array<Grid, kLevels> grids_;
+  std::array<std::size_t, kLevels> forget_at_{};  ///< number of cells at which the empty ones are taken out
   std::deque<std::vector<Eigen::Vector2d>> scans_;
 };
 

@@ -16,6 +16,8 @@ constexpr double kMaxWheelGap_s = 10.0;
 /// No wheels go that fast, m/s or rad/s; stamps that jitter only feign it over a short way, m or rad.
 constexpr double kLeastJump = 1.5;
 constexpr double kFastest = 20.0;
+/// A stamp that is older by more is no late message: the clock was set back, or the stamp before was wrong.
+constexpr double kSetBack_s = 1.0;
 constexpr double kPiece_s = 0.025;
 constexpr int kMostPieces = 200;
 
@@ -23,6 +25,7 @@ constexpr int kMostPieces = 200;
 
 void MotionInputs::addWheels(double time_s, const Eigen::Isometry2d& T_wheels_base) {
   if (!std::isfinite(time_s) || !T_wheels_base.matrix().allFinite()) return;
+  if (!wheels_.empty() && time_s < wheels_.back().time_s - kSetBack_s) wheels_.clear();
   if (!wheels_.empty() && time_s <= wheels_.back().time_s) return;
   if (!wheels_.empty() && jumps(wheels_.back(), {time_s, T_wheels_base})) wheels_.clear();
   wheels_.push_back({time_s, T_wheels_base});
@@ -38,6 +41,7 @@ bool MotionInputs::jumps(const WheelPose& from, const WheelPose& to) {
 
 void MotionInputs::addImu(const ImuSample& sample, const Eigen::Matrix3d& R_base_imu) {
   R_base_imu_ = R_base_imu;
+  if (!gyro_.empty() && sample.time_s < gyro_.newest_s() - kSetBack_s) gyro_.clear();
   ImuSample rates = sample;
   if (rates.angular_velocity) rates.q_world_imu.reset();
   gyro_.add(rates);

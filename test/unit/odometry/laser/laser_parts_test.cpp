@@ -1,12 +1,14 @@
 // Scans, walls and what a scan tells, each by itself.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "odometry/laser/correlative_search.h"
 #include "odometry/laser/laser_scan.h"
 #include "odometry/laser/line_map.h"
+#include "odometry/laser/measured_motion.h"
 #include "odometry/laser/told_directions.h"
 #include "walled_world.h"
 
@@ -72,6 +74,42 @@ TEST(LineMap, aCornerIsNoWall) {
   map.add(corner);
   EXPECT_EQ(map.lineAt({0.05, 0.05}, 0), nullptr);
   EXPECT_NE(map.lineAt({0.6, 0.01}, 0), nullptr);
+}
+
+TEST(LineMap, holdsNoMoreOfALongWayThanOfAShortOne) {
+  LineMap map(0.1, 3);
+  std::size_t most = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<Eigen::Vector2d> walls;
+    for (int k = 0; k < 100; ++k) walls.emplace_back(3.0 * i + 0.04 * k, k % 2 == 0 ? 1.0 : -1.0);
+    map.add(walls);
+    for (int k = 0; k < 100; ++k) map.lineAt({3.0 * i + 0.04 * k, 0.01 * k}, 0);  // in the open, most of them
+    most = std::max(most, map.cells());
+  }
+  EXPECT_LT(most, 10000u);
+  EXPECT_NE(map.lineAt({3.0 * 299 + 2.0, 1.0}, 0), nullptr);
+}
+
+TEST(MotionInputs, aWrongStampSilencesWheelsAndGyroscopeForAMomentOnly) {
+  MotionInputs inputs;
+  const auto feed = [&inputs](double time_s, double x_m) {
+    inputs.addWheels(time_s, planarPose({x_m, 0.0, 0.0}));
+    ImuSample sample;
+    sample.time_s = time_s;
+    sample.angular_velocity = Eigen::Vector3d(0.0, 0.0, 0.5);
+    inputs.addImu(sample, Eigen::Matrix3d::Identity());
+  };
+  for (int i = 0; i < 200; ++i) {
+    feed(0.02 * i, 0.01 * i);
+    if (i == 100) feed(1e6, 1.0);
+  }
+  const MeasuredMotion before = inputs.between(1.9, 2.1), motion = inputs.between(2.5, 2.6);
+  EXPECT_EQ(before.translation, RateSource::kNone);
+  EXPECT_EQ(motion.translation, RateSource::kWheels);
+  EXPECT_EQ(motion.rotation, RateSource::kGyro);
+  ASSERT_FALSE(motion.pieces.empty());
+  EXPECT_NEAR(motion.pieces.front().rate.x(), 0.5, 1e-6);
+  EXPECT_NEAR(motion.pieces.front().rate.z(), 0.5, 1e-6);
 }
 
 TEST(ToldDirections, aCorridorTellsAllButItsDirection) {
