@@ -29,14 +29,15 @@ inline cv::Mat drawDisparity(
     const DisparityCamera& camera, double sigma_px, unsigned seed,
     const std::function<double(const Eigen::Vector3d&, const Eigen::Vector3d&)>& depth) {
   std::mt19937 generator(seed);
-  std::normal_distribution<double> noise(0.0, sigma_px);
+  std::normal_distribution<double> noise(0.0, 1.0);  // of no width it would not be defined
   cv::Mat_<float> disparity(240, 320, -1.0F);
   for (int v = 0; v < disparity.rows; ++v) {
     for (int u = 0; u < disparity.cols; ++u) {
       const Eigen::Vector3d ray((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0);
       const double z_m = depth(camera.T_base_camera.translation(), camera.T_base_camera.linear() * ray);
       const double d = camera.fx * camera.baseline_m / z_m;
-      if (std::isfinite(z_m) && d < 64.0) disparity(v, u) = static_cast<float>(d + noise(generator));
+      if (std::isfinite(z_m) && d < 64.0)
+        disparity(v, u) = static_cast<float>(d + sigma_px * noise(generator));
     }
   }
   return disparity;
