@@ -73,13 +73,14 @@ struct TurningLaser {
     scan.time_increment_s = sweep_s / 360.0;
     scan.range_min_m = 0.1;
     scan.range_max_m = 12.0;
-    std::normal_distribution<double> noise(0.0, sigma_m);
+    std::normal_distribution<double> noise(0.0, 1.0);  // of no width it would not be defined
     for (int i = 0; i < 360; ++i) {
       const Eigen::Vector3d pose = path(time_s + i * scan.time_increment_s);
       const double range_m =
           world.range_m(pose.head<2>(), pose.z() + scan.angle_min_rad + i * scan.angle_increment_rad);
-      scan.ranges_m.push_back(range_m < scan.range_max_m ? static_cast<float>(range_m + noise(random))
-                                                         : std::numeric_limits<float>::infinity());
+      scan.ranges_m.push_back(range_m < scan.range_max_m
+                                  ? static_cast<float>(range_m + sigma_m * noise(random))
+                                  : std::numeric_limits<float>::infinity());
     }
     return scan;
   }
