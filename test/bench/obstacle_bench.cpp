@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include <boost/make_shared.hpp>
-#include <ctime>
 #include <iostream>
 #include <optional>
 
+#include "core/processor_time.h"
 #include "core/statistics.h"
 #include "navigation/obstacles/obstacle_map.h"
 #include "ros/simulated_messages.h"
@@ -25,12 +25,6 @@ namespace stereo_nav::navigation {
 namespace {
 
 constexpr double kNear_m = 0.1;
-
-double processorTime_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 struct Score {
   std::size_t outline = 0, in_grid = 0, known = 0, false_cells = 0;

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <queue>
 #include <random>
 
+#include "core/processor_time.h"
 #include "core/statistics.h"
 #include "navigation/planner/benchmark_map.h"
 #include "navigation/planner/path_planner.h"
@@ -19,12 +19,6 @@
 
 namespace stereo_nav::navigation {
 namespace {
-
-double processorTime_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 template <class Work>
 double timed_ms(const Work& work) {

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/atomic_file.h"
+#include "core/processor_time.h"
 #include "grid/map_file.h"
 #include "navigation/planner/path_file.h"
 #include "navigation/planner/path_planner.h"
@@ -14,7 +15,6 @@
 #include "tools/common/program.h"
 #include "tools/plan/path_drawing.h"
 #include "tools/plan/plan_options.h"
-#include "tools/plan/processor_time.h"
 #include "tools/plan/scenario_run.h"
 
 namespace stereo_nav::tools {

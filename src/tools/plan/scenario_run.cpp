@@ -9,11 +9,11 @@
 #include <map>
 #include <vector>
 
+#include "core/processor_time.h"
 #include "core/statistics.h"
 #include "navigation/planner/benchmark_map.h"
 #include "navigation/planner/grid_search.h"
 #include "stereo_nav/core/input_error.h"
-#include "tools/plan/processor_time.h"
 
 namespace stereo_nav::tools {
 namespace {
