@@ -145,6 +145,9 @@ TEST_F(EkfLocalizationNode, TakesNothingInWhileItIsSwitchedOff) {
 
 TEST_F(EkfLocalizationNode, IsWhereFuseIsOnTheRecordingOfTheSameMessages) {
   playUntil(0.0, [this] { return last_.has_value(); });
+  // What was sent before may still be on its way, and would begin the filter anew before the recording
+  // begins.
+  ros::WallDuration(0.3).sleep();
   std_srvs::Empty empty;
   ASSERT_TRUE(ros::service::call("reset", empty));
   ros::spinOnce();
@@ -154,7 +157,7 @@ TEST_F(EkfLocalizationNode, IsWhereFuseIsOnTheRecordingOfTheSameMessages) {
   std::filesystem::create_directories(folder);
   ros_io::BagFile bag(folder + "/played.bag");
   recording_ = &bag;
-  for (int i = 0; i < 75; ++i) play(0.5, 0.6);
+  for (int i = 0; i < 75; ++i) play(std::min(0.5, 0.01 * i), std::min(0.6, 0.012 * i));
   bag.commit();
   recording_ = nullptr;
   const CommandResult fused = runCommand(FUSE " " + folder + "/played.bag --output " + folder + "/fused");
