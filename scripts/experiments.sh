@@ -3,10 +3,12 @@
 #
 #   scripts/experiments.sh [--seeds N] [--build BUILD_DIR] [--output DIR] [--cores N] [SNAKEMAKE_ARGUMENT...]
 #
-# Writes docs/experiments.md with its plots, no figure by hand. Incremental: what was made before is used again, unless
+# Writes docs/experiments.md with its plots and docs/fusion_experiments.md, no figure by hand. Incremental: what was made before is used again, unless
 # the sources that it comes from have changed. N seeds are driven for each point, 5 unless given. Everything is made in
 # DIR, BUILD_DIR/experiments unless given. With `--config keep_bags=true` the simulated recordings stay there, and another
 # odometry is measured without simulating again. workflow/config.yaml lists all that `--config` takes.
+#
+# `scripts/experiments.sh fusion` makes docs/fusion_experiments.md alone: what the filter makes of each set of sensors.
 #
 # Further arguments go to snakemake, e.g. `--profile workflow/profile/slurm` for a cluster, or a target:
 # `scripts/experiments.sh recordings --config bags=a.bag,b.bag configs=vo.yaml,vo_thesis.yaml` evaluates any recordings

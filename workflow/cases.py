@@ -81,6 +81,13 @@ GROUPS = {
         drift: ("arena", ["imu.kind=thesis", "imu.yaw_drift_dps=" + drift], BOTH) for drift in DRIFTS_DPS}},
 }
 
+# Courses on which the filter's sensors are compared, and what is set beside their files. One ray a pixel renders four times as fast.
+FUSION = {
+    "office": ["rig.samples_per_pixel=1"],
+    "long_corridor": ["rig.samples_per_pixel=1"],
+    "arena": ["rig.samples_per_pixel=1", "wheels.radius_sigma=0.03", "wheels.position_sigma_m=0.003", "wheels.slip_sigma_m=0.01"],
+}
+
 
 def bag_name(scenario, settings, seed):
     """A file name that says what is in it; equal drives of different groups share it."""
@@ -140,6 +147,10 @@ def scenario_digest(scenario):
 def simulator_digest():
     return digest("src/sim", "src/core", "src/ros/simulated_messages.cpp", "src/tools/simulate",
                   "config/thesis")
+
+
+def fusion_digest():
+    return digest("src/core", "src/vision", "src/odometry", "src/estimation", "src/tools/fusion_experiment", "config/fusion")
 
 
 def odometry_digest():

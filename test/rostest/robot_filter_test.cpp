@@ -9,6 +9,7 @@
 #include <string>
 
 #include "rostest/graph_probe.h"
+#include "support/command.h"
 #include "support/ros_wait.h"
 
 namespace stereo_nav::test {
@@ -35,6 +36,13 @@ TEST(RobotFilter, AloneSaysWhereTheRobotIs) {
   }));
   EXPECT_EQ(publishers, std::set<std::string>{"/ekf_localization"});
   EXPECT_LT(distance(*filtered, probe.odometry.back()), 0.2);
+}
+
+TEST(RobotFilter, AnUnknownPublisherOfTfIsRefusedByName) {
+  const CommandResult refused = runCommand("roslaunch --nodes stereo_nav robot.launch odom_tf:=laser");
+  EXPECT_NE(refused.status, 0);
+  EXPECT_NE(refused.output.find("odom_tf must be one of these"), std::string::npos) << refused.output;
+  EXPECT_NE(refused.output.find("'laser'"), std::string::npos) << refused.output;
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ void FusionFilter::add(Measurement measurement, double received_s) {
   for (const FieldFinding& finding : checkFields(params_.defaults, measurement))
     say(nameOf(measurement) + finding.key, nameOf(measurement) + ": " + finding.text, received_s);
   if (!started()) begin(measurement.time_s);
-  insert(measurement);
+  insert(std::move(measurement));
   forgetOld();
 }
 
@@ -83,12 +83,13 @@ void FusionFilter::clockSetBack(double time_s, double by_s) {
   now.pose_known = memory.pose_known;
 }
 
-void FusionFilter::insert(const Measurement& measurement) {
-  const std::size_t index = firstLaterThan(measurement.time_s);
-  if (index < history_.size()) ++statisticsOf(measurement).rewound;
-  EstimatorMemory memory = history_[index - 1].memory;
-  const Outcome outcome = estimator_.apply(measurement, memory);
-  history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(index), {measurement, memory});
+void FusionFilter::insert(Measurement taken) {
+  const std::size_t index = firstLaterThan(taken.time_s);
+  if (index < history_.size()) ++statisticsOf(taken).rewound;
+  history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(index),
+                  {std::move(taken), history_[index - 1].memory});
+  const Measurement& measurement = history_[index].measurement;
+  const Outcome outcome = estimator_.apply(measurement, history_[index].memory);
   takeInAgain(index + 1);
   report(measurement, outcome);
   // What a verdict says of the last window has harmed the state already: that is undone.
@@ -106,9 +107,8 @@ std::size_t FusionFilter::firstLaterThan(double time_s) const {
 
 void FusionFilter::takeInAgain(std::size_t from) {
   for (std::size_t i = from; i < history_.size(); ++i) {
-    EstimatorMemory memory = history_[i - 1].memory;
-    estimator_.apply(history_[i].measurement, memory);
-    history_[i].memory = std::move(memory);
+    history_[i].memory = history_[i - 1].memory;
+    estimator_.apply(history_[i].measurement, history_[i].memory);
   }
 }
 

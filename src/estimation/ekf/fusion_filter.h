@@ -63,7 +63,7 @@ class FusionFilter {
   bool stampUsable(const Measurement& measurement, double received_s);
   void begin(double time_s);
   void clockSetBack(double time_s, double by_s);
-  void insert(const Measurement& measurement);
+  void insert(Measurement taken);
   std::size_t firstLaterThan(double time_s) const;
   void takeInAgain(std::size_t from);
   void report(const Measurement& measurement, const Outcome& outcome);

@@ -47,9 +47,11 @@ double defaultSigma(const DefaultSigmas& sigmas, Kind kind, int field) {
   return sigmas.acceleration_m_s2;
 }
 
+using SixBySix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
 bool positive(const Measurement& measurement) {
   const auto n = static_cast<Eigen::Index>(measurement.fields.size());
-  Eigen::MatrixXd part(n, n);
+  SixBySix part = SixBySix::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j)
       part(i, j) = measurement.covariance(measurement.fields[static_cast<std::size_t>(i)],
@@ -58,7 +60,7 @@ bool positive(const Measurement& measurement) {
   const bool symmetric = (part - part.transpose()).cwiseAbs().maxCoeff() <= 1e-6 * part.cwiseAbs().maxCoeff();
   if (measurement.kind == Kind::kMotion)
     return part.allFinite() && symmetric;  // motionSince() looks at differences
-  return part.allFinite() && symmetric && Eigen::LLT<Eigen::MatrixXd>(part).info() == Eigen::Success;
+  return part.allFinite() && symmetric && Eigen::LLT<SixBySix>(part).info() == Eigen::Success;
 }
 
 class FieldCheck {

@@ -23,7 +23,10 @@ Eigen::Matrix3d rpyJacobian(const RollPitchYaw& rpy) {
 /// A measurement of all six fields, before those that count are picked.
 struct Whole {
   Vector6d residual = Vector6d::Zero();
-  Eigen::MatrixXd H;  ///< six rows, columns: the whole error
+  /// By the rows of the error that are no anchor's, and by those of the anchor that it is about.
+  Eigen::Matrix<double, 6, kAnchors> H = Eigen::Matrix<double, 6, kAnchors>::Zero();
+  int anchor_row = -1;  ///< first row of that anchor; -1: none
+  Matrix6d H_anchor = Matrix6d::Zero();
 };
 
 void observePose(const State& state, const Measurement& measurement, Whole& whole) {
@@ -93,21 +96,24 @@ int stateRowOf(Kind kind, int field) {
 Innovation picked(const StateLayout& layout, const Whole& whole, const Matrix6d& covariance,
                   const std::vector<int>& fields) {
   const auto n = static_cast<Eigen::Index>(fields.size());
-  Innovation innovation{
-      Eigen::VectorXd(n), Eigen::MatrixXd(n, whole.H.cols()), Eigen::MatrixXd(n, n), fields, 0.0, 0.0};
+  Innovation innovation;
+  innovation.fields = fields;
+  innovation.residual.resize(n);
+  innovation.noise.resize(n, n);
+  innovation.H.setZero(n, layout.rows());
   for (Eigen::Index i = 0; i < n; ++i) {
     const int field = fields[static_cast<std::size_t>(i)];
     innovation.residual[i] = whole.residual[field];
-    innovation.H.row(i) = whole.H.row(field);
+    for (int j = 0; j < layout.coreRows(); ++j)
+      innovation.H(i, j) = whole.H(field, layout.kept()[static_cast<std::size_t>(j)]);
+    for (int j = 0; whole.anchor_row >= 0 && j < 6; ++j) {
+      const int column = layout.at(whole.anchor_row + j);
+      if (column >= 0) innovation.H(i, column) = whole.H_anchor(field, j);
+    }
     for (Eigen::Index j = 0; j < n; ++j)
       innovation.noise(i, j) = covariance(field, fields[static_cast<std::size_t>(j)]);
   }
-  innovation.H = layout.compressed(innovation.H);
   return innovation;
-}
-
-Eigen::Index columns(const StateLayout& layout) {
-  return kAnchors + 6 * layout.anchors();
 }
 
 }  // namespace
@@ -115,7 +121,6 @@ Eigen::Index columns(const StateLayout& layout) {
 Innovation observe(const StateLayout& layout, const State& state, const Measurement& measurement, bool wheels,
                    double gravity_m_s2) {
   Whole whole;
-  whole.H = Eigen::MatrixXd::Zero(6, columns(layout));
   if (measurement.kind == Kind::kPose) observePose(state, measurement, whole);
   if (measurement.kind == Kind::kTwist) observeTwist(state, measurement, wheels, whole);
   if (measurement.kind == Kind::kRate) observeRate(state, measurement, whole);
@@ -134,13 +139,13 @@ Innovation observeAnchor(const StateLayout& layout, const State& state, int anch
       state.anchors[static_cast<std::size_t>(anchor)].inverse() * state.T_world_base;
   const Eigen::Matrix3d R = T_anchor_base.linear();
   Whole whole;
-  whole.H = Eigen::MatrixXd::Zero(6, columns(layout));
+  whole.anchor_row = first;
   whole.residual << -T_anchor_base.translation(), -logRotation(R);
   whole.H.block<3, 3>(0, kPosition) = R;
   whole.H.block<3, 3>(3, kRotation).setIdentity();
-  whole.H.block<3, 3>(0, first) = -Eigen::Matrix3d::Identity();
-  whole.H.block<3, 3>(0, first + 3) = hat(T_anchor_base.translation());
-  whole.H.block<3, 3>(3, first + 3) = -R.transpose();
+  whole.H_anchor.block<3, 3>(0, 0) = -Eigen::Matrix3d::Identity();
+  whole.H_anchor.block<3, 3>(0, 3) = hat(T_anchor_base.translation());
+  whole.H_anchor.block<3, 3>(3, 3) = -R.transpose();
   std::vector<int> kept;
   for (const int field : fields) {
     if (layout.at(first + field) >= 0) kept.push_back(field);

@@ -9,7 +9,7 @@ namespace stereo_nav::estimation {
 namespace {
 
 constexpr double kLongestStep_s = 0.05;
-using CoreMatrix = Eigen::Matrix<double, error_row::kAnchors, error_row::kAnchors>;
+constexpr int kMoving = error_row::kGyroBias;
 using CoreVector = Eigen::Matrix<double, error_row::kAnchors, 1>;
 
 /// What an acceleration that dies away adds to velocity and way after some time.
@@ -36,46 +36,57 @@ CoreVector densities(const ProcessNoise& noise) {
   return q;
 }
 
-Eigen::MatrixXd keptTransition(const StateLayout& layout, const CoreMatrix& F) {
-  const int n = layout.coreRows();
-  Eigen::MatrixXd kept(n, n);
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i)
+/// The rows that move of a transition or of its noise, of what the layout keeps: no memory is allocated.
+using MovingRows =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMoving, error_row::kAnchors>;
+
+MovingRows keptTransition(const StateLayout& layout, const Transition& F) {
+  MovingRows kept(layout.movingRows(), layout.coreRows());
+  for (int j = 0; j < kept.cols(); ++j) {
+    for (int i = 0; i < kept.rows(); ++i)
       kept(i, j) = F(layout.kept()[static_cast<std::size_t>(i)], layout.kept()[static_cast<std::size_t>(j)]);
   }
   return kept;
 }
 
-/// Integral of F(s) Q F(s)^T over the step.
-Eigen::MatrixXd integratedNoise(const StateLayout& layout, const ProcessNoise& noise, const State& state,
-                                double step_s) {
+/// Integral of F(s) Q F(s)^T over the step, of the rows that move.
+MovingRows integratedNoise(const StateLayout& layout, const CoreVector& densities, const ProcessNoise& noise,
+                           const State& state, double step_s) {
   const double outer = 0.5 * std::sqrt(0.6);
   const double places[3] = {0.5 - outer, 0.5, 0.5 + outer};
   const double weights[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-  const CoreVector whole = densities(noise);
-  const int n = layout.coreRows();
-  Eigen::VectorXd q(n);
-  for (int i = 0; i < n; ++i) q[i] = whole[layout.kept()[static_cast<std::size_t>(i)]];
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  const int m = layout.movingRows(), n = layout.coreRows();
+  MovingRows sum = MovingRows::Zero(m, n);
   for (int i = 0; i < 3; ++i) {
-    const Eigen::MatrixXd F =
+    const MovingRows F =
         keptTransition(layout, transitionOf(state, places[i] * step_s, noise.acceleration_decay_s));
-    sum.noalias() += (F * (weights[i] * step_s * q).asDiagonal()) * F.transpose();
+    const MovingRows FQ = F * (weights[i] * step_s * densities.head(n)).asDiagonal();
+    sum.leftCols(m) += FQ.lazyProduct(F.transpose());
+    sum.rightCols(n - m) += FQ.rightCols(n - m);
   }
   return sum;
 }
 
+/// F P F^T + Q for F = (F_moving; 0 I), whose lower rows are those that stay.
+void propagate(const StateLayout& layout, const MovingRows& F, const MovingRows& noise, Eigen::MatrixXd& P) {
+  const int m = layout.movingRows(), n = layout.coreRows(), rest = layout.rows() - m;
+  const MovingRows FP = F.lazyProduct(P.topLeftCorner(n, n));
+  if (layout.rows() > n)
+    P.topRightCorner(m, layout.rows() - n) = F.lazyProduct(P.topRightCorner(n, layout.rows() - n)).eval();
+  P.block(0, m, m, n - m) = FP.rightCols(n - m) + noise.rightCols(n - m);
+  P.bottomLeftCorner(rest, m) = P.topRightCorner(m, rest).transpose();
+  const MovingRows own = FP.lazyProduct(F.transpose()) + noise.leftCols(m);
+  P.topLeftCorner(m, m) = 0.5 * (own + own.transpose());
+}
+
 void step(const StateLayout& layout, const ProcessNoise& noise, double step_s, State& state) {
-  const int n = layout.coreRows();
-  const int anchored = layout.rows() - n;
-  const Eigen::MatrixXd F = keptTransition(layout, transitionOf(state, step_s, noise.acceleration_decay_s));
-  auto core = state.covariance.topLeftCorner(n, n);
-  core = (F * core * F.transpose()).eval() + integratedNoise(layout, noise, state, step_s);
-  core = (0.5 * (core + core.transpose())).eval();
-  if (anchored > 0) {
-    state.covariance.topRightCorner(n, anchored) = (F * state.covariance.topRightCorner(n, anchored)).eval();
-    state.covariance.bottomLeftCorner(anchored, n) = state.covariance.topRightCorner(n, anchored).transpose();
-  }
+  const int m = layout.movingRows(), n = layout.coreRows();
+  const CoreVector whole = densities(noise);
+  CoreVector kept = CoreVector::Zero();
+  for (int i = 0; i < n; ++i) kept[i] = whole[layout.kept()[static_cast<std::size_t>(i)]];
+  propagate(layout, keptTransition(layout, transitionOf(state, step_s, noise.acceleration_decay_s)),
+            integratedNoise(layout, kept, noise, state, step_s), state.covariance);
+  for (int i = m; i < n; ++i) state.covariance(i, i) += step_s * kept[i];
   const Decay decay = decayAfter(step_s, noise.acceleration_decay_s);
   state.T_world_base = renormalised(state.T_world_base * motionIn(state, step_s, decay));
   state.velocity += decay.velocity_s * state.acceleration;
@@ -95,10 +106,10 @@ Eigen::Vector3d velocityByScale(const State& state) {
   return by_scale;
 }
 
-CoreMatrix transitionOf(const State& state, double step_s, double acceleration_decay_s) {
+Transition transitionOf(const State& state, double step_s, double acceleration_decay_s) {
   using namespace error_row;
   const Decay decay = decayAfter(step_s, acceleration_decay_s);
-  CoreMatrix F = CoreMatrix::Identity();
+  Transition F = Transition::Identity();
   F.block<6, 6>(kPosition, kPosition) = adjoint(motionIn(state, step_s, decay).inverse());
   const Eigen::Matrix3d turning = step_s * (Eigen::Matrix3d::Identity() - 0.5 * step_s * hat(state.rate));
   F.block<3, 3>(kPosition, kVelocity) = turning;

@@ -21,12 +21,13 @@ struct ProcessNoise {
 /// those that are not held. m/s, m/s, rad/s.
 Eigen::Vector3d velocityByScale(const State& state);
 
+/// Rows: those of the error that change by themselves. Columns: those that are no anchor's.
+using Transition = Eigen::Matrix<double, error_row::kGyroBias, error_row::kAnchors>;
+
 /// Error at the end of a step of `step_s` for a unit error of each core row at its start: rho' = -omega x rho
 /// - v x phi + dv, phi' = -omega x phi + domega (Sola et al. 2018, "A micro Lie theory", with the error on
 /// the right).
-Eigen::Matrix<double, error_row::kAnchors, error_row::kAnchors> transitionOf(const State& state,
-                                                                             double step_s,
-                                                                             double acceleration_decay_s);
+Transition transitionOf(const State& state, double step_s, double acceleration_decay_s);
 
 /// Moves a state on to `time_s`, in steps of 0.05 s at most: velocities stay, accelerations die away. The
 /// noise is integrated over each step by three-point Gauss-Legendre quadrature of F(s) Q F(s)^T, which is

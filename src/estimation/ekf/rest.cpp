@@ -59,8 +59,10 @@ Innovation observeRest(const StateLayout& layout, const State& state) {
   Vector6d twist;
   twist << state.velocity, state.rate;
   const auto n = static_cast<Eigen::Index>(kept.size());
-  Innovation innovation{
-      Eigen::VectorXd(n), Eigen::MatrixXd::Zero(n, layout.rows()), Eigen::MatrixXd::Zero(n, n), {}, 0.0, 0.0};
+  Innovation innovation;
+  innovation.residual.resize(n);
+  innovation.H.setZero(n, layout.rows());
+  innovation.noise.setZero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const int field = kept[static_cast<std::size_t>(i)] - error_row::kVelocity;
     innovation.residual[i] = -twist[field];

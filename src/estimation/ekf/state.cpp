@@ -21,6 +21,7 @@ StateLayout::StateLayout(const StateParts& parts) : anchors_(parts.anchors), pla
   keepLinear(error_row::kVelocity);
   keepAngular(error_row::kRate);
   if (parts.accelerometer) keepLinear(error_row::kAcceleration);
+  moving_rows_ = rows();
   if (parts.gyro) keepAngular(error_row::kGyroBias);
   if (parts.accelerometer) keepLinear(error_row::kAccelerometerBias);
   if (parts.wheel_scales) {
@@ -33,16 +34,14 @@ StateLayout::StateLayout(const StateParts& parts) : anchors_(parts.anchors), pla
   }
 }
 
-Eigen::MatrixXd StateLayout::compressed(const Eigen::MatrixXd& jacobian) const {
-  Eigen::MatrixXd kept(jacobian.rows(), rows());
-  for (int i = 0; i < rows(); ++i) kept.col(i) = jacobian.col(rows_[static_cast<std::size_t>(i)]);
-  return kept;
-}
-
 void StateLayout::add(const Eigen::VectorXd& error, State& state) const {
-  Eigen::VectorXd whole = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(at_.size()));
-  for (int i = 0; i < rows(); ++i) whole[rows_[static_cast<std::size_t>(i)]] = error[i];
-  const auto part = [&whole](int row) -> Eigen::Vector3d { return whole.segment<3>(row); };
+  const auto part = [this, &error](int first) {
+    Eigen::Vector3d three = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) {
+      if (at(first + i) >= 0) three[i] = error[at(first + i)];
+    }
+    return three;
+  };
   const auto move = [&part](int row, Eigen::Isometry3d& T) {
     T.translation() += T.linear() * part(row);
     T.linear() =

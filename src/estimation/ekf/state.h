@@ -54,6 +54,9 @@ class StateLayout {
   explicit StateLayout(const StateParts& parts);
 
   int rows() const { return static_cast<int>(rows_.size()); }
+  /// The first rows: pose, velocities and accelerations, which change by themselves. The rows after them stay
+  /// what they are, up to their noise.
+  int movingRows() const { return moving_rows_; }
   /// Rows that are no anchor's.
   int coreRows() const { return core_rows_; }
   /// Kept row to row of the error.
@@ -63,8 +66,6 @@ class StateLayout {
   bool planar() const { return planar_; }
   int anchors() const { return anchors_; }
 
-  /// Columns of the whole error to the kept ones.
-  Eigen::MatrixXd compressed(const Eigen::MatrixXd& jacobian) const;
   /// Adds an error (kept rows) to a state.
   void add(const Eigen::VectorXd& error, State& state) const;
   /// The covariance of up to six rows of the error, zero where they are not kept.
@@ -73,6 +74,7 @@ class StateLayout {
  private:
   std::vector<int> rows_;
   std::vector<int> at_;
+  int moving_rows_ = 0;
   int core_rows_ = 0;
   int anchors_ = 0;
   bool planar_ = false;

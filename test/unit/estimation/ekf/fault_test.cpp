@@ -55,6 +55,8 @@ class FusionFault : public testing::Test {
   using Change = std::function<bool(Measurement&, double&)>;
   SceneResult with(int channel, double duration_s, const Change& change) {
     end_s_ = kBegin_s + duration_s;
+    // As long as harmOf() looks.
+    options_.duration_s = std::min(60.0, end_s_ - 1000.0 + 6.5);
     options_.fault = [=](Measurement& measurement, double& received_s) {
       const bool now = measurement.time_s >= kBegin_s && measurement.time_s < kBegin_s + duration_s;
       return !now || (channel >= 0 && measurement.channel != channel) || change(measurement, received_s);
@@ -87,7 +89,6 @@ TEST_F(FusionFault, NoneSaysNothing) {
 }
 
 TEST_F(FusionFault, WithoutOneTheErrorsGrowByWhatIsStated) {
-  options_.duration_s = kBegin_s - 1000.0 + 6.5;
   double largest_m = 0.0, largest_rad = 0.0;
   for (options_.seed = 1; options_.seed <= 20; ++options_.seed) {
     const SceneResult result = with(-1, 0.0, [](Measurement&, double&) { return true; });
@@ -159,13 +160,10 @@ TEST_F(FusionFault, MessagesThatComeLateArePutWhereTheyBelong) {
 }
 
 TEST_F(FusionFault, ClockSetBack) {
-  const SceneResult result = with(-1, 100.0, [](Measurement& m, double& received_s) {
-    m.time_s -= 10.0;
-    received_s -= 10.0;
-    return true;
-  });
+  options_.clock_back_at_s = kBegin_s - 1000.0;
+  const SceneResult result = with(-1, 0.0, [](Measurement&, double&) { return true; });
   EXPECT_TRUE(said(result, "the clock was set back by 10.0 s"));
-  EXPECT_TRUE(harmOf(result, end_s_).finite);
+  expectHarmless(result);
 }
 
 TEST_F(FusionFault, StampsOfOneSensorSetBack) {

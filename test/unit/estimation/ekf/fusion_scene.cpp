@@ -100,11 +100,13 @@ Measurement gnssOf(double time_s, const Eigen::Isometry2d& T_true, std::mt19937&
   return measurement;
 }
 
-SceneSample sampleOf(double time_s, const Eigen::Isometry2d& T_true, const FusionFilter& filter) {
+/// `clock_s` is added to the robot's clock.
+SceneSample sampleOf(double time_s, double clock_s, const Eigen::Isometry2d& T_true,
+                     const FusionFilter& filter) {
   SceneSample sample;
   sample.time_s = time_s - kStart_s;
   sample.T_true = T_true;
-  sample.estimate = filter.estimate(time_s);
+  sample.estimate = filter.estimate(time_s + clock_s);
   const Eigen::Isometry2d T_estimated = planarPart(sample.estimate.T_world_base);
   sample.error << T_estimated.translation() - T_true.translation(),
       wrapRadians(Eigen::Rotation2Dd(T_estimated.linear()).angle() -
@@ -145,15 +147,24 @@ SceneResult runScene(const SceneOptions& options) {
   Eigen::Isometry2d T_true = Eigen::Isometry2d::Identity();
   SceneResult result;
   std::vector<Arrival> waiting;
+  double clock_s = 0.0;
   const auto send = [&](Measurement measurement) {
     double received_s = measurement.time_s + 1e-4;
+    measurement.time_s += clock_s;
+    received_s += clock_s;
     if (options.fault && !options.fault(measurement, received_s)) return;
-    waiting.push_back({received_s, measurement});
+    if (waiting.empty() && received_s < measurement.time_s + 0.5 * kStep_s) {
+      filter.add(std::move(measurement), received_s);
+    } else {
+      waiting.push_back({received_s, std::move(measurement)});
+    }
   };
+  const int sampled = static_cast<int>(std::lround(options.sample_period_s / kStep_s));
   const int steps = static_cast<int>(std::lround(options.duration_s / kStep_s));
   for (int step = 0; step <= steps; ++step) {
     const double t = step * kStep_s, time_s = kStart_s + t;
     const Eigen::Vector3d twist = trueTwist(t);
+    clock_s = t < options.clock_back_at_s ? 0.0 : -10.0;
     send(gyroOf(time_s, twist[2] + options.gyro_bias_rad_s, random));
     if (step % 2 == 0) send(wheelsOf(time_s, twist, options.wheel_scale, random));
     if (options.laser && step % 10 == 0) send(laser.measure(time_s, T_true, random));
@@ -164,10 +175,11 @@ SceneResult runScene(const SceneOptions& options) {
         ++it;
         continue;
       }
-      filter.add(it->measurement, it->received_s);
+      filter.add(std::move(it->measurement), it->received_s);
       it = waiting.erase(it);
     }
-    if (step % 2 == 0 && filter.started()) result.samples.push_back(sampleOf(time_s, T_true, filter));
+    if (step % sampled == 0 && filter.started())
+      result.samples.push_back(sampleOf(time_s, clock_s, T_true, filter));
     T_true = T_true * expPlanar(trueTwist(t + 0.5 * kStep_s) * kStep_s);
     for (const std::string& text : filter.takeAnnouncements()) result.announcements.push_back(text);
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -16,12 +17,15 @@ using Fault = std::function<bool(Measurement&, double& received_s)>;
 struct SceneOptions {
   unsigned seed = 1;
   double duration_s = 60.0;
+  double sample_period_s = 0.02;  ///< a multiple of 0.01 s
   bool laser = true;
   bool stereo = true;  ///< a second odometry, beside the laser
   bool gnss = false;   ///< absolute positions at 5 Hz, sigma 0.3 m
   double gyro_bias_rad_s = 0.0026;
   Eigen::Vector3d wheel_scale{0.02, -0.07, 0.05};
-  Fault fault;  ///< asked for each measurement
+  double clock_back_at_s =
+      std::numeric_limits<double>::infinity();  ///< then the clock of all is set back by 10 s
+  Fault fault;                                  ///< asked for each measurement
 };
 
 /// Channels of the scene.
@@ -43,7 +47,7 @@ struct SceneSample {
 };
 
 struct SceneResult {
-  std::vector<SceneSample> samples;  ///< 50 a second
+  std::vector<SceneSample> samples;  ///< one each sample_period_s
   std::vector<std::string> announcements;
   std::vector<ChannelStatistics> statistics;
 };
