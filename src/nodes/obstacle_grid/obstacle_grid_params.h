@@ -12,7 +12,7 @@ struct ObstacleGridParams {
   std::string odom_frame = ros_io::frames::kOdom;
   std::string base_frame = ros_io::frames::kBase;
   std::string ranges = "front rear left right";
-  bool edges = true;
+  bool edges = false;
   double publish_rate_hz = 10.0;
   double tf_wait_s = 0.3;
   double input_timeout_s = 3.0;
