@@ -12,6 +12,7 @@ struct DisparityCamera {
   double baseline_m = 0.0;
   Eigen::Isometry3d T_base_camera =
       Eigen::Isometry3d::Identity();  ///< optical axes; base_link is on the floor
+  double right_shift_px = 0.0;        ///< right_cx - cx
 };
 
 /// The floor as a disparity image shows it: a plane there, too. A pixel's disparity on the floor is linear in

@@ -16,6 +16,7 @@ int cellsOfSide(const ObstacleParams& params) {
 ObstacleMap::ObstacleMap(const ObstacleParams& params)
     : params_(params),
       columns_(params),
+      edges_(params),
       stereo_(cellsOfSide(params), params.memory_s),
       scan_(cellsOfSide(params), params.memory_s),
       ranges_(cellsOfSide(params), params.memory_s) {
@@ -41,24 +42,26 @@ void ObstacleMap::follow(const Eigen::Vector2d& robot_odom) {
 }
 
 void ObstacleMap::addDisparity(double time_s, const cv::Mat& disparity, const DisparityCamera& camera,
-                               const Eigen::Isometry3d& T_odom_base) {
+                               const Eigen::Isometry3d& T_odom_base, const RectifiedPair& images) {
   const std::vector<ColumnView>& views = columns_.look(disparity, camera);
   const Eigen::Isometry3d T_odom_camera = T_odom_base * camera.T_base_camera;
+  // Where a surface at a depth meets the floor: its foot is seen in the row where the floor has its
+  // disparity.
+  const auto place = [&](double u, double z_m) {
+    const double v = columns_.floor().row(u, camera.fx * camera.baseline_m / z_m);
+    const Eigen::Vector3d foot(z_m * (u - camera.cx) / camera.fx, z_m * (v - camera.cy) / camera.fy, z_m);
+    return Eigen::Vector2d((T_odom_camera * foot).head<2>());
+  };
   stereo_.beginLook(time_s);
   for (const ColumnView& view : views) {
-    // Where a surface at a depth meets the floor: its foot is seen in the row where the floor has its
-    // disparity.
-    const auto place = [&](double z_m) {
-      const double v = columns_.floor().row(view.u, camera.fx * camera.baseline_m / z_m);
-      const Eigen::Vector3d foot(z_m * (view.u - camera.cx) / camera.fx, z_m * (v - camera.cy) / camera.fy,
-                                 z_m);
-      return Eigen::Vector2d((T_odom_camera * foot).head<2>());
-    };
     if (view.clear_to_m > view.clear_from_m)
-      seeFreeAlong(stereo_, place(view.clear_from_m), place(view.clear_to_m));
+      seeFreeAlong(stereo_, place(view.u, view.clear_from_m), place(view.u, view.clear_to_m));
     for (const auto* occupied : {&view.obstacles_m, &view.holes_m})
-      for (const double z_m : *occupied) stereo_.seeOccupied(grid_.geometry.cellAt(place(z_m)));
+      for (const double z_m : *occupied) stereo_.seeOccupied(grid_.geometry.cellAt(place(view.u, z_m)));
   }
+  if (!images.left.empty())
+    for (const StandingEdge& edge : edges_.look(images, disparity, camera, columns_.floor(), T_odom_camera))
+      stereo_.seeOccupied(grid_.geometry.cellAt(place(edge.u, edge.z_m)));
   stereo_.endLook();
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "navigation/obstacles/evidence_layer.h"
+#include "navigation/obstacles/standing_edges.h"
 #include "navigation/obstacles/stereo_columns.h"
 
 namespace stereo_nav::navigation {
@@ -28,9 +29,9 @@ class ObstacleMap {
 
   /// Keeps the window around the robot.
   void follow(const Eigen::Vector2d& robot_odom);
-  /// One disparity image (CV_32FC1, px, at most 0 where unknown).
+  /// One disparity image (CV_32FC1, px, at most 0 where unknown), with the images that it is of, or without.
   void addDisparity(double time_s, const cv::Mat& disparity, const DisparityCamera& camera,
-                    const Eigen::Isometry3d& T_odom_base);
+                    const Eigen::Isometry3d& T_odom_base, const RectifiedPair& images = {});
   void addScan(double time_s, const std::vector<Beam>& beams, const Eigen::Isometry3d& T_odom_sensor);
   /// One reading of a range finder; it counts across the width of its beam.
   void addRange(double time_s, const Beam& beam, const Eigen::Isometry3d& T_odom_sensor);
@@ -48,6 +49,7 @@ class ObstacleMap {
 
   ObstacleParams params_;
   StereoColumns columns_;
+  StandingEdges edges_;
   EvidenceLayer stereo_, scan_, ranges_;
   grid::OccupancyGrid grid_;
   std::vector<Beam> one_beam_;

@@ -56,6 +56,7 @@ ObstacleGridNode::ObstacleGridNode(ros::NodeHandle handle, ros::NodeHandle priva
   for (std::string range; names >> range;)
     subscribers_.push_back(
         handle_.subscribe(ros_io::topics::kRange + range, kWaiting, &ObstacleGridNode::handleRange, this));
+  if (params_.edges) subscribeImages();
   clear_ = handle_.advertiseService("obstacles/clear", &ObstacleGridNode::handleClear, this);
   // Who sees it advertised knows that the node listens to everything.
   publisher_ = handle_.advertise<nav_msgs::OccupancyGrid>("obstacles", 1);
@@ -72,12 +73,41 @@ void ObstacleGridNode::handleDisparity(const stereo_msgs::DisparityImage::ConstP
                 "disparity images, but no camera_info of both cameras; are they of one namespace?");
           const double start_s = steadyNow_s();
           const vision::StereoCalibration calibration = ros_io::toCalibration(*left_info_, *right_info_);
-          const navigation::DisparityCamera camera{calibration.fx, calibration.fy,         calibration.cx,
-                                                   calibration.cy, calibration.baseline_m, T_base_camera};
-          map_.addDisparity(message->header.stamp.toSec(), ros_io::toDisparityMap(*message, calibration),
-                            camera, T_odom_base);
+          const navigation::DisparityCamera camera{calibration.fx,
+                                                   calibration.fy,
+                                                   calibration.cx,
+                                                   calibration.cy,
+                                                   calibration.baseline_m,
+                                                   T_base_camera,
+                                                   calibration.right_cx - calibration.cx};
+          const cv::Mat disparity = ros_io::toDisparityMap(*message, calibration);
+          const navigation::RectifiedPair images = imagesOf(message->header.stamp, disparity.size());
+          if (params_.edges && images.left.empty()) ++without_images_;
+          map_.addDisparity(message->header.stamp.toSec(), disparity, camera, T_odom_base, images);
           time_ms_ = 1e3 * (steadyNow_s() - start_s);
         }});
+}
+
+void ObstacleGridNode::subscribeImages() {
+  const auto subscribe = [this](const char* topic, Images& images) {
+    subscribers_.push_back(handle_.subscribe<sensor_msgs::Image>(
+        topic, kWaiting, [&images](const sensor_msgs::ImageConstPtr& image) {
+          if (images.size() == kImages) images.pop_front();
+          images.push_back(image);
+        }));
+  };
+  subscribe("camera/left/image_rect", left_images_);
+  subscribe("camera/right/image_rect", right_images_);
+}
+
+navigation::RectifiedPair ObstacleGridNode::imagesOf(const ros::Time& stamp, const cv::Size& size) const {
+  const auto find = [&](const Images& images) {
+    const auto found = std::find_if(images.begin(), images.end(),
+                                    [&](const auto& image) { return image->header.stamp == stamp; });
+    return found == images.end() ? cv::Mat() : ros_io::toMono8(*found);
+  };
+  const navigation::RectifiedPair pair{find(left_images_), find(right_images_)};
+  return pair.left.size() == size && pair.right.size() == size ? pair : navigation::RectifiedPair();
 }
 
 void ObstacleGridNode::handleScan(const sensor_msgs::LaserScan::ConstPtr& message) {
@@ -208,6 +238,7 @@ void ObstacleGridNode::fillStatus(diagnostic_updater::DiagnosticStatusWrapper& s
     status.mergeSummary(problem.second.is_error ? Level::ERROR : Level::WARN, problem.second.text);
   status.add("messages used", used_);
   status.add("messages dropped (no pose in time, newer ones came, or refused)", dropped_);
+  status.add("disparity images without their rectified images", without_images_);
   status.addf("time of the newest disparity image [ms]", "%.2f", time_ms_);
 }
 

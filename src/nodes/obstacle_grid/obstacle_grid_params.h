@@ -12,6 +12,7 @@ struct ObstacleGridParams {
   std::string odom_frame = ros_io::frames::kOdom;
   std::string base_frame = ros_io::frames::kBase;
   std::string ranges = "front rear left right";
+  bool edges = false;
   double publish_rate_hz = 10.0;
   double tf_wait_s = 0.3;
   double input_timeout_s = 3.0;
@@ -22,6 +23,8 @@ struct ObstacleGridParams {
     visitor.text("base_frame", base_frame, "frame of the robot, on the floor");
     visitor.text("ranges", ranges,
                  "names NAME of the range finders range/NAME that are used, separated by blanks");
+    visitor.flag("edges", edges,
+                 "edges that stand above the floor are looked for in the rectified images, too");
     visitor.real("publish_rate_hz", publish_rate_hz, {0.1, 100.0}, "Hz",
                  "how often `obstacles` is published at most");
     visitor.real("tf_wait_s", tf_wait_s, {0.0, 5.0}, "s",
