@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "ros/device_messages.h"
 #include "ros/judged_infos.h"
@@ -85,13 +86,15 @@ Contacts DrivenMessages::contacts(double time_s, const std::vector<std::string>&
   return message;
 }
 
-PairMessages DrivenMessages::pair(const sim::StereoShot& shot) const {
+PairMessages DrivenMessages::pair(const sim::StereoShot& shot, bool on_two_threads) const {
   const auto taken = [&](sim::Side side) {
     return TakenImage{shot.image(side, *cameras_), &cameras_->calibration(side),
                       1e-3 * shot.exposure(side).exposure_ms};
   };
-  return toPairMessages(shot.index, shot.instants, taken(sim::Side::kLeft), taken(sim::Side::kRight),
-                        readout_s_, start_);
+  const auto policy = on_two_threads ? std::launch::async : std::launch::deferred;
+  auto left = std::async(policy, taken, sim::Side::kLeft);
+  const TakenImage right = taken(sim::Side::kRight);
+  return toPairMessages(shot.index, shot.instants, left.get(), right, readout_s_, start_);
 }
 
 tf2_msgs::TFMessage DrivenMessages::staticTransforms() const {

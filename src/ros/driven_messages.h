@@ -41,8 +41,8 @@ class DrivenMessages {
   std::string rangeTopic(std::size_t finder) const;
   sensor_msgs::Range range(std::size_t finder, double time_s, double range_m) const;
   Contacts contacts(double time_s, const std::vector<std::string>& names) const;
-  /// Renders both images.
-  PairMessages pair(const sim::StereoShot& shot) const;
+  /// Renders both images, on two threads where that is wanted.
+  PairMessages pair(const sim::StereoShot& shot, bool on_two_threads = false) const;
   tf2_msgs::TFMessage staticTransforms() const;
 
  private:

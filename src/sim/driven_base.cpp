@@ -32,6 +32,7 @@ DrivenBase::DrivenBase(const DrivenParams& params, const WheelModelParams& wheel
       true_drive_(trueDrive(wheels, rig.drive, seed)),
       commander_(rig.drive, rig.limits),
       slip_(streamKey(seed, Stream::kWheelSlip)),
+      slipped_m_(rig.drive.wheels.size(), 0.0),
       targets_(rig.drive.wheels.size()) {
   for (std::size_t i = 0; i < targets_.size(); ++i)
     wheels_.emplace_back(motorOf(params_, rig_.limits, true_drive_.steered(i)));
@@ -70,8 +71,8 @@ kinematics::Twist DrivenBase::step(double duration_s) {
   followCommands(duration_s);
   Wheels moved;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
-    double way_m = wheels_[i].way_m() - before[i].way_m();
-    if (slip_sigma_m_ > 0.0) way_m += slip_sigma_m_ * std::sqrt(std::abs(way_m)) * slip_.normal();
+    const double way_m = wheels_[i].way_m() - before[i].way_m();
+    slipped_m_[i] += slip_sigma_m_ * std::sqrt(std::abs(way_m)) * slip_.normal();
     moved.push_back({way_m / duration_s, 0.5 * (before[i].steering_rad() + wheels_[i].steering_rad())});
   }
   time_s_ += duration_s;
@@ -82,7 +83,8 @@ SimulatedTicks DrivenBase::ticks() const {
   SimulatedTicks ticks{time_s_, {}, {}};
   bool steered = false;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
-    ticks.pulses.push_back(std::llround(wheels_[i].way_m() / trueWheels().wheels[i].metresPerPulse()));
+    ticks.pulses.push_back(
+        std::llround((wheels_[i].way_m() + slipped_m_[i]) / trueWheels().wheels[i].metresPerPulse()));
     ticks.steering_rad.push_back(wheels_[i].steering_rad());
     steered = steered || true_drive_.steered(i);
   }

@@ -43,6 +43,7 @@ class DrivenBase {
   kinematics::WheelCommander commander_;
   std::vector<base::EmulatedWheel> wheels_;
   RandomStream slip_;
+  std::vector<double> slipped_m_;  ///< what the wheels have turned more than they moved the base
   kinematics::Twist wanted_ = kinematics::Twist::Zero();
   double wanted_s_ = 0.0;
   std::uint64_t commands_ = 0;

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <future>
 #include <sstream>
 
 #include "ros/bag_file.h"
@@ -14,29 +13,18 @@
 namespace stereo_nav::tools {
 namespace {
 
-/// Writes everything; pairs when as many have come as there are threads to render them.
+/// Writes each message at once, so that the order does not depend on the number of threads.
 class BagSink : public ros_io::DrivenOutput<ros_io::BagFile> {
  public:
   BagSink(const ros_io::DrivenMessages& messages, ros_io::BagFile& bag, const SimulatedBagOptions& options)
       : DrivenOutput(messages, bag), options_(options) {}
 
   void takeShot(sim::StereoShot shot) override {
-    if (!options_.images) return;
-    waiting_.push_back(std::move(shot));
-    if (waiting_.size() == static_cast<std::size_t>(options_.threads)) writePairs();
-  }
-
-  void writePairs() {
-    std::vector<std::future<ros_io::PairMessages>> rendered;
-    for (const sim::StereoShot& shot : waiting_)
-      rendered.push_back(std::async(std::launch::async, [this, &shot] { return messages().pair(shot); }));
-    for (auto& pair : rendered) writePair(pair.get());
-    waiting_.clear();
+    if (options_.images) writePair(messages().pair(shot, options_.threads > 1));
   }
 
  private:
   SimulatedBagOptions options_;
-  std::vector<sim::StereoShot> waiting_;
 };
 
 }  // namespace
@@ -84,7 +72,6 @@ void writeDrivenBag(const std::string& path, sim::DrivenSimulation& simulation,
     simulation.command(command.twist);
   }
   simulation.advance(end_s, sink);
-  sink.writePairs();
   bag.commit();
 }
 
