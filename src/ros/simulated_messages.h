@@ -3,28 +3,16 @@
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/Quaternion.h>
 #include <nav_msgs/Odometry.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstdint>
 
+#include "ros/sensor_messages.h"
 #include "sim/simulation.h"
-#include "stereo_nav/StereoSync.h"
 #include "stereo_nav/WheelTicks.h"
 
 namespace stereo_nav::ros_io {
-
-/// The messages that stereo_capture publishes for one pair by default, and the true motion at its left image.
-/// Images, infos and odometry carry the left image's exposure time; the true times are in `sync`.
-struct PairMessages {
-  sensor_msgs::Image left, right;
-  sensor_msgs::CameraInfo left_info, right_info;
-  StereoSync sync;
-  nav_msgs::Odometry ground_truth;
-  double available_s;  ///< when both images are complete, simulation time
-};
 
 /// The sensors of a simulation as messages. `start` is the stamp of simulation time 0. The simulation has the
 /// IMU in the base's origin with the base's axes; its messages are converted to the axes of `T_base_imu`, but
@@ -57,9 +45,6 @@ class SimulatedMessages {
   nav_msgs::Odometry groundTruth(double time_s) const;
 
  private:
-  sensor_msgs::CameraInfo info(sim::Side side, const std_msgs::Header& header) const;
-  sensor_msgs::Image image(sim::Side side, std::size_t pair, const std_msgs::Header& header) const;
-
   const sim::Simulation& simulation_;
   ros::Time start_;
   Eigen::Isometry3d T_base_imu_;

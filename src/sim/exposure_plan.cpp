@@ -3,8 +3,6 @@
 namespace stereo_nav::sim {
 namespace {
 
-/// Images before the first one that is recorded: enough for the loop to settle.
-constexpr int kImagesBefore = 120;
 /// What the corners count, where the middle counts 1.
 constexpr double kCornerWeight = 0.3;
 

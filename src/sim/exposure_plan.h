@@ -8,6 +8,10 @@
 
 namespace stereo_nav::sim {
 
+/// Images that a camera with automatic exposure sees before the first one that counts: enough for the loop to
+/// settle.
+constexpr int kImagesBefore = 120;
+
 /// Mean grey level, after the tone curve, that the camera sees in one of its images when it takes it so.
 using ExposureMeter = std::function<double(std::size_t image, const ExposureSetting& setting)>;
 

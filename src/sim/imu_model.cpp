@@ -57,34 +57,41 @@ ImuSample perfectSample(const BaseState& state) {
 
 }  // namespace
 
+ImuModel::ImuModel(const ImuParams& params, std::uint64_t seed)
+    : params_(params),
+      random_(streamKey(seed, Stream::kImu)),
+      gyro_bias_dps_(params.gyro_bias_dps * normalVector(random_)),
+      accel_bias_(params.accel_bias_mps2 * normalVector(random_)) {}
+
+ImuSample ImuModel::sample(const BaseState& state, double time_s) {
+  ImuSample sample;
+  switch (params_.kind) {
+    case ImuKind::kNone:
+      break;
+    case ImuKind::kPerfect:
+      sample = perfectSample(state);
+      break;
+    case ImuKind::kThesis:
+      sample = thesisSample(params_, state, time_s, random_);
+      break;
+    case ImuKind::kRaw:
+      gyro_bias_dps_ += params_.gyro_walk_dps2_rthz / std::sqrt(params_.rate_hz) * normalVector(random_);
+      sample = rawSample(params_, state, gyro_bias_dps_, accel_bias_, random_);
+      break;
+  }
+  sample.time_s = time_s + latency_s();
+  return sample;
+}
+
 std::vector<ImuSample> simulateImu(const ImuParams& params, const Trajectory& trajectory, double duration_s,
                                    std::uint64_t seed) {
   std::vector<ImuSample> samples;
   if (params.kind == ImuKind::kNone) return samples;
-  RandomStream random(streamKey(seed, Stream::kImu));
-  Eigen::Vector3d gyro_bias_dps = params.gyro_bias_dps * normalVector(random);
-  const Eigen::Vector3d accel_bias = params.accel_bias_mps2 * normalVector(random);
+  ImuModel model(params, seed);
   const auto count = static_cast<std::size_t>(std::floor(duration_s * params.rate_hz)) + 1;
   for (std::size_t i = 0; i < count; ++i) {
     const double time_s = static_cast<double>(i) / params.rate_hz;
-    const BaseState state = trajectory.state(time_s);
-    ImuSample sample;
-    switch (params.kind) {
-      case ImuKind::kNone:
-        break;
-      case ImuKind::kPerfect:
-        sample = perfectSample(state);
-        break;
-      case ImuKind::kThesis:
-        sample = thesisSample(params, state, time_s, random);
-        break;
-      case ImuKind::kRaw:
-        gyro_bias_dps += params.gyro_walk_dps2_rthz / std::sqrt(params.rate_hz) * normalVector(random);
-        sample = rawSample(params, state, gyro_bias_dps, accel_bias, random);
-        break;
-    }
-    sample.time_s = params.kind == ImuKind::kPerfect ? time_s : time_s + 1e-3 * params.latency_ms;
-    samples.push_back(sample);
+    samples.push_back(model.sample(trajectory.state(time_s), time_s));
   }
   return samples;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/random.h"
 #include "sim/trajectory.h"
 #include "stereo_nav/core/imu_sample.h"
 #include "stereo_nav/core/parameter_visitor.h"
@@ -34,6 +35,23 @@ struct ImuParams {
   double accel_noise_mps2_rthz = 0.004;
 
   void describe(ParameterVisitor& visitor);
+};
+
+/// The module, sample after sample. `imu_link` has the axes of `base_link`. Deterministic in `seed`.
+class ImuModel {
+ public:
+  ImuModel(const ImuParams& params, std::uint64_t seed);
+
+  /// The sample whose values are true at `time_s`, as a driver would stamp it: its `time_s` is when they have
+  /// arrived, `latency_ms` later.
+  ImuSample sample(const BaseState& state, double time_s);
+  /// Of the stamp behind the true time.
+  double latency_s() const { return params_.kind == ImuKind::kPerfect ? 0.0 : 1e-3 * params_.latency_ms; }
+
+ private:
+  ImuParams params_;
+  RandomStream random_;
+  Eigen::Vector3d gyro_bias_dps_, accel_bias_;
 };
 
 /// All samples of the module, from 0 to `duration_s`, as a driver would stamp them: a sample's `time_s` is

@@ -58,7 +58,10 @@ enum class Stream : std::uint64_t {
   kLight,
   kWheelGeometry,
   kWheelSlip,
-  kCalibration
+  kCalibration,
+  kLaser,
+  kRange,
+  kFix
 };
 
 }  // namespace stereo_nav::sim

@@ -21,9 +21,9 @@ CameraInstants reflected(const CameraInstants& instants, const Mirror& mirror) {
 std::vector<const Solid*> inFront(const Scene& scene, const Mirror& mirror, const CameraInstants& instants) {
   const double side = mirror.side(instants.list.front().T_world_camera.translation()) < 0.0 ? -1.0 : 1.0;
   std::vector<const Solid*> solids;
-  for (const Solid& solid : scene.solids()) {
-    const double distance_m = side * mirror.side(solid.position(instants.list.front().time_s));
-    if (solid.kind == Solid::Kind::kRoom || distance_m > kInPlane_m) solids.push_back(&solid);
+  for (const Solid* solid : scene.solidsAt(instants.list.front().time_s)) {
+    const double distance_m = side * mirror.side(solid->position(instants.list.front().time_s));
+    if (solid->kind == Solid::Kind::kRoom || distance_m > kInPlane_m) solids.push_back(solid);
   }
   return solids;
 }

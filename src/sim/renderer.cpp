@@ -21,17 +21,10 @@ Eigen::Vector2d offsetInPixel(int index, int count) {
   return {(shuffled_x + 0.5) * scale - 0.5, (shuffled_y + 0.5) * scale - 0.5};
 }
 
-std::vector<const Solid*> allSolids(const Scene& scene) {
-  std::vector<const Solid*> solids;
-  for (const Solid& solid : scene.solids()) solids.push_back(&solid);
-  return solids;
-}
-
 }  // namespace
 
-Renderer::Renderer(const Scene& scene, const CameraCalibration& calibration, int samples)
-    : scene_(scene),
-      width_(calibration.width),
+Renderer::Renderer(const CameraCalibration& calibration, int samples)
+    : width_(calibration.width),
       height_(calibration.height),
       stride_((calibration.width + kTile - 1) / kTile * kTile),
       samples_(samples),
@@ -82,12 +75,12 @@ void Renderer::computeTileBounds() {
   }
 }
 
-cv::Mat Renderer::render(const CameraPath& T_world_camera, const Shutter& shutter) const {
+cv::Mat Renderer::render(const Scene& scene, const CameraPath& T_world_camera, const Shutter& shutter) const {
   const CameraInstants instants = cameraInstants(T_world_camera, shutter, height_, samples_);
-  RenderedFrame frame(allSolids(scene_), instants);
+  RenderedFrame frame(scene.solidsAt(shutter.middle_s), instants);
   std::vector<ReflectedFrame> reflections;
-  reflections.reserve(scene_.mirrors().size());
-  for (const Mirror& mirror : scene_.mirrors()) reflections.emplace_back(scene_, mirror, instants);
+  reflections.reserve(scene.mirrors().size());
+  for (const Mirror& mirror : scene.mirrors()) reflections.emplace_back(scene, mirror, instants);
   cv::Mat light = cv::Mat::zeros(height_, width_, CV_32FC1);
   std::size_t tile = 0;
   for (int top = 0; top < height_; top += kTile) {

@@ -24,14 +24,14 @@ class RenderedFrame;
 /// Pose of the raw optical frame at a time: T_world_camera. Called from the rendering thread.
 using CameraPath = std::function<Eigen::Isometry3d(double time_s)>;
 
-/// Casts rays from one camera into a scene. Every pixel is the mean of `samples` rays that are spread over
+/// Casts rays from one camera into scenes. Every pixel is the mean of `samples` rays that are spread over
 /// its area and over the exposure time at once, so that edges are smooth and motion blurs; textures are read
 /// from pyramids, along the slant of the surface with several taps. Mirrors add what a second ray meets. The
 /// rays of the distorted pixels are computed once. Const methods may be called from several threads.
 class Renderer {
  public:
-  /// `samples` per pixel, 1 to 16. `scene` must outlive the renderer.
-  Renderer(const Scene& scene, const CameraCalibration& calibration, int samples);
+  /// `samples` per pixel, 1 to 16.
+  Renderer(const CameraCalibration& calibration, int samples);
 
   /// Rectangle of ray coordinates (x/z, y/z) that a tile of the image sees.
   struct TileBounds {
@@ -41,7 +41,7 @@ class Renderer {
   cv::Size size() const { return {width_, height_}; }
 
   /// Light on the sensor in grey levels of a perfect 8 bit camera, CV_32FC1, not limited to 255.
-  cv::Mat render(const CameraPath& T_world_camera, const Shutter& shutter) const;
+  cv::Mat render(const Scene& scene, const CameraPath& T_world_camera, const Shutter& shutter) const;
 
  private:
   static constexpr int kTile = 16;
@@ -51,7 +51,6 @@ class Renderer {
   void renderTile(const RenderedFrame& frame, const std::vector<const ReflectedFrame*>& reflections, int top,
                   int left, cv::Mat& light) const;
 
-  const Scene& scene_;
   int width_, height_;
   int stride_;  ///< width rounded up to whole tiles
   int samples_;

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "grid/map_file.h"
 #include "stereo_nav/core/parameters.h"
 
 namespace stereo_nav::sim {
@@ -175,6 +176,7 @@ void Scenario::describe(ParameterVisitor& visitor) {
   visitor.integer("world_seed", scene.world_seed, {0, 1000000}, "",
                   "textures and scattered objects; not the seed of a run, the world stays the same");
   visitSection(visitor, "room", scene.room);
+  visitSection(visitor, "map_walls", map_walls);
   visitSection(visitor, "motion", motion);
   visitSection(visitor, "rig", rig);
   visitSection(visitor, "calibration_error", calibration_error);
@@ -184,6 +186,9 @@ void Scenario::describe(ParameterVisitor& visitor) {
   visitSection(visitor, "right", right);
   visitSection(visitor, "imu", imu);
   visitSection(visitor, "wheels", wheels);
+  visitSection(visitor, "driven", driven);
+  visitSection(visitor, "laser", laser);
+  visitSection(visitor, "range", range);
 }
 
 Scenario loadScenario(const std::string& path, const std::vector<std::string>& overrides) {
@@ -197,6 +202,10 @@ Scenario loadScenario(const std::string& path, const std::vector<std::string>& o
   readPreset(sections, scenario);
   readParameters(sections, path, scenario);
   requireUsable(scenario, path);
+  if (!scenario.map_walls.file.empty()) {
+    const auto map = std::filesystem::path(path).parent_path() / scenario.map_walls.file;
+    raiseWalls(grid::loadMap(map.string()), scenario.map_walls, scenario.scene);
+  }
   return scenario;
 }
 

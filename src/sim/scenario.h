@@ -6,8 +6,10 @@
 #include "core/rig_file.h"
 #include "sim/calibration_error.h"
 #include "sim/camera_clocks.h"
+#include "sim/driven_params.h"
 #include "sim/image_sensor.h"
 #include "sim/imu_model.h"
+#include "sim/map_walls.h"
 #include "sim/scene.h"
 #include "sim/trajectory.h"
 #include "sim/wheel_model.h"
@@ -39,6 +41,7 @@ struct RigParams {
 /// Everything about a simulated drive except its seed.
 struct Scenario {
   SceneParams scene;
+  MapWallsParams map_walls;  ///< loadScenario() has raised them among the scene's objects
   std::vector<PathStep> path;
   std::vector<Event> events;
   MotionParams motion;
@@ -49,6 +52,9 @@ struct Scenario {
   CameraResponse left, right;
   ImuParams imu;
   WheelModelParams wheels;
+  DrivenParams driven;
+  LaserModelParams laser;
+  RangeModelParams range;
   kinematics::DriveParams drive;  ///< nominal wheels, of the rig file; none: no wheels are simulated
 
   /// All but the lists and the drive.

@@ -52,8 +52,8 @@ Scene::Scene(const SceneParams& params) : world_seed_(static_cast<std::uint64_t>
 }
 
 Surface Scene::makeSurface(const Material& material, std::uint64_t instance) {
-  std::unique_ptr<Texture>& texture = textures_[material.texture];
-  if (!texture) texture = std::make_unique<Texture>(material.texture, world_seed_);
+  std::shared_ptr<Texture>& texture = textures_[material.texture];
+  if (!texture) texture = std::make_shared<Texture>(material.texture, world_seed_);
   Surface surface;
   surface.texture = texture.get();
   surface.grey = static_cast<float>(255.0 * material.brightness);
@@ -70,6 +70,7 @@ Surface Scene::makeSurface(const Material& material, std::uint64_t instance) {
 void Scene::addRoom(const RoomParams& room) {
   Solid solid;
   solid.kind = Solid::Kind::kRoom;
+  solid.name = "wall";
   solid.p_world = {0.5 * (room.x_min_m + room.x_max_m), 0.5 * (room.y_min_m + room.y_max_m),
                    0.5 * room.height_m};
   solid.half = {static_cast<float>(0.5 * (room.x_max_m - room.x_min_m)),
@@ -124,6 +125,10 @@ void Scene::addObject(const ObjectParams& object) {
   solid.walk_m = {object.walk_x_m, object.walk_y_m};
   solid.walk_period_s = object.walk_period_s;
   solid.walk_phase = object.walk_phase;
+  solid.from_s = object.from_s;
+  solid.to_s = object.to_s;
+  solid.movable = object.movable;
+  solid.name = object.name.empty() ? "object " + std::to_string(solids_.size()) : object.name;
   for (int i = 0; i < object.repeats; ++i) {
     solids_.push_back(solid);
     solid.p_world += Eigen::Vector3d(object.repeat_x_m, object.repeat_y_m, 0.0);
@@ -147,9 +152,18 @@ void Scene::scatter(const ClutterParams& clutter, std::uint64_t index) {
   }
 }
 
+std::vector<const Solid*> Scene::solidsAt(double time_s) const {
+  std::vector<const Solid*> solids;
+  for (const Solid& solid : solids_) {
+    if (solid.isThere(time_s)) solids.push_back(&solid);
+  }
+  return solids;
+}
+
 double Scene::castRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double time_s) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Solid& solid : solids_) {
+    if (!solid.isThere(time_s)) continue;
     const Eigen::Vector3d o = solid.R_solid_world * (origin - solid.position(time_s));
     const Eigen::Vector3d d = solid.R_solid_world * direction;
     Interval hit = slab(o.z(), d.z(), solid.half.z());

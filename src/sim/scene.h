@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,7 @@ enum class Shape { kBox, kCylinder };
 
 /// Something that stands or walks in the world. World frame: x and y on the floor, z up, metres.
 struct ObjectParams {
+  std::string name;  ///< what reports of contacts call it
   Shape shape = Shape::kBox;
   double x_m = 0.0;  ///< centre
   double y_m = 0.0;
@@ -40,6 +42,9 @@ struct ObjectParams {
   double walk_y_m = 0.0;
   double walk_period_s = 10.0;
   double walk_phase = 0.0;  ///< share of the period that has passed at time 0
+  double from_s = 0.0;      ///< it is there from this time on,
+  double to_s = 1e9;        ///< until this one
+  bool movable = false;     ///< a driven robot pushes it
   bool glass = false;       ///< a pane: shows what is behind it, mirrors what is before it
   int repeats = 1;          ///< it stands there so often, and looks the same each time
   double repeat_x_m = 0.0;  ///< from one to the next
@@ -112,17 +117,27 @@ struct Solid {
   Eigen::Vector2d walk_m = Eigen::Vector2d::Zero();
   double walk_period_s = 1.0;
   double walk_phase = 0.0;
+  double from_s = 0.0;
+  double to_s = 1e9;
+  bool movable = false;
+  std::string name;
 
+  bool isThere(double time_s) const { return time_s >= from_s && time_s < to_s; }
   /// Middle at a time.
   Eigen::Vector3d position(double time_s) const;
 };
 
-/// All solids with their textures. Immutable once built: threads share it.
+/// All solids with their textures. Threads share it while nothing is moved; a copy, which shares the
+/// textures, is the scene of its moment.
 class Scene {
  public:
   explicit Scene(const SceneParams& params);
 
   const std::vector<Solid>& solids() const { return solids_; }
+  /// Those that are there at a time.
+  std::vector<const Solid*> solidsAt(double time_s) const;
+  /// Moves a solid over the floor.
+  void move(std::size_t solid, const Eigen::Vector2d& way_m) { solids_[solid].p_world.head<2>() += way_m; }
   /// Glossy floor first, then panes of glass, which no ray of castRay() meets.
   const std::vector<Mirror>& mirrors() const { return mirrors_; }
 
@@ -137,7 +152,7 @@ class Scene {
   void scatter(const ClutterParams& clutter, std::uint64_t index);
 
   std::uint64_t world_seed_;
-  std::map<TextureKind, std::unique_ptr<Texture>> textures_;
+  std::map<TextureKind, std::shared_ptr<Texture>> textures_;
   std::vector<Solid> solids_;
   std::vector<Mirror> mirrors_;
 };

@@ -21,6 +21,7 @@ void Material::describe(ParameterVisitor& visitor) {
 }
 
 void ObjectParams::describe(ParameterVisitor& visitor) {
+  visitor.text("name", name, "what reports of contacts call it; empty: its number");
   describeShape(visitor, shape);
   visitor.real("x_m", x_m, kPlace, "m", "position of the middle, forward from the start");
   visitor.real("y_m", y_m, kPlace, "m", "position of the middle, left of the start");
@@ -34,6 +35,9 @@ void ObjectParams::describe(ParameterVisitor& visitor) {
   visitor.real("walk_y_m", walk_y_m, kPlace, "m", "it walks this far left and back");
   visitor.real("walk_period_s", walk_period_s, {0.1, 1e4}, "s", "time for there and back");
   visitor.real("walk_phase", walk_phase, {0.0, 1.0}, "", "share of the period that has passed at the start");
+  visitor.real("from_s", from_s, {0.0, 1e9}, "s", "it appears at this time");
+  visitor.real("to_s", to_s, {0.0, 1e9}, "s", "it vanishes at this time");
+  visitor.flag("movable", movable, "a driven robot pushes it; it does not turn");
   visitor.flag("glass", glass, "a pane of glass in the middle of its thinner side, at rest");
   visitor.integer("repeats", repeats, {1, 1000}, "", "it stands there so often and looks the same each time");
   visitor.real("repeat_x_m", repeat_x_m, kPlace, "m", "forward, from one to the next");

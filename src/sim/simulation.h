@@ -1,18 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "sim/calibration_error.h"
-#include "sim/exposure_plan.h"
-#include "sim/renderer.h"
 #include "sim/scenario.h"
+#include "sim/stereo_cameras.h"
 
 namespace stereo_nav::sim {
-
-enum class Side { kLeft, kRight };
 
 /// A scenario brought to life with a seed: what the sensors deliver and the truth, all as functions of time.
 /// Const methods may be called from several threads; results depend on the seed alone.
@@ -24,7 +19,7 @@ class Simulation {
   double duration_s() const { return trajectory_.duration_s(); }
   const Scenario& scenario() const { return scenario_; }
   /// What the calibration says of a camera, which differs from the true one by scenario().calibration_error.
-  const CameraCalibration& calibration(Side side) const { return of(nominal_, side); }
+  const CameraCalibration& calibration(Side side) const { return cameras_.calibration(side); }
   const Trajectory& trajectory() const { return trajectory_; }
   const std::vector<PairInstants>& pairs() const { return pairs_; }
   const std::vector<ImuSample>& imu() const { return imu_; }
@@ -35,7 +30,9 @@ class Simulation {
   double imageTime(Side side, std::size_t pair) const;
 
   /// With what an image is taken.
-  const ExposureSetting& exposure(Side side, std::size_t pair) const { return camera(side).exposures[pair]; }
+  const ExposureSetting& exposure(Side side, std::size_t pair) const {
+    return (side == Side::kLeft ? left_exposures_ : right_exposures_)[pair];
+  }
 
   /// The raw, distorted image of a pair, CV_8UC1.
   cv::Mat image(Side side, std::size_t pair) const;
@@ -44,39 +41,20 @@ class Simulation {
   Eigen::Isometry3d cameraPose(Side side, double time_s) const;
 
  private:
-  struct Camera {
-    CameraCalibration calibration;  ///< the true one
-    Eigen::Isometry3d T_base_raw;
-    Renderer renderer;
-    ImageSensor sensor;
-    std::vector<ExposureSetting> exposures;  ///< of each pair's image
-  };
-
-  static const CameraCalibration& of(const StereoCalibrationPair& pair, Side side) {
-    return side == Side::kLeft ? pair.left : pair.right;
-  }
-  std::unique_ptr<Camera> makeCamera(Side side, const TrueCameras& cameras) const;
-  const Camera& camera(Side side) const { return side == Side::kLeft ? *left_ : *right_; }
   std::vector<ExposureSetting> planned(Side side) const;
-  /// What a camera's pixels collect, before the amplifier and without noise: the camera's own, or those of a
-  /// `renderer` with fewer.
-  cv::Mat signal(Side side, std::size_t pair, const Renderer& renderer, const ExposureSetting& setting) const;
-  void flicker(const Shutter& open, cv::Mat& light) const;
-  void blur(Side side, const Shutter& open, cv::Mat& light) const;
-  Shutter shutter(Side side, std::size_t pair, const ExposureSetting& setting) const;
-  double lightLevel(double time_s) const;
-  bool blocked(Side side, double time_s) const;
+  BasePath path() const {
+    return [this](double time_s) { return trajectory_.pose(time_s); };
+  }
 
   Scenario scenario_;
-  std::uint64_t seed_;
   Scene scene_;
   Trajectory trajectory_;
   std::vector<PairInstants> pairs_;
   std::vector<ImuSample> imu_;
   kinematics::DriveParams true_drive_;
   std::vector<SimulatedTicks> wheels_;
-  StereoCalibrationPair nominal_;
-  std::unique_ptr<Camera> left_, right_;
+  StereoCameras cameras_;
+  std::vector<ExposureSetting> left_exposures_, right_exposures_;
 };
 
 }  // namespace stereo_nav::sim

@@ -150,11 +150,12 @@ vision::StereoCalibration ColdStart::calibration() const {
   return calibration;
 }
 
-cv::Mat ColdStart::image(const sim::Renderer& renderer, bool is_right, int frame) const {
+cv::Mat ColdStart::image(const sim::Scene& scene, const sim::Renderer& renderer, bool is_right,
+                         int frame) const {
   Eigen::Isometry3d T_base_optical = baseToCamera();
   if (is_right) T_base_optical.translate(Eigen::Vector3d(baseline_m_, 0.0, 0.0));
   const auto path = [&](double time_s) { return Eigen::Isometry3d(basePose(time_s) * T_base_optical); };
-  cv::Mat light = renderer.render(path, {kPeriod_s * frame, exposure_s_, 0.0});
+  cv::Mat light = renderer.render(scene, path, {kPeriod_s * frame, exposure_s_, 0.0});
   if (kind_ == Kind::kCovered) cover(is_right, frame, light);
   sim::SensorParams sensor;
   sensor.read_noise = 2.0;
@@ -196,7 +197,7 @@ std::vector<ImuSample> ColdStart::imu(double from_s, double to_s) const {
 
 ColdStartCounts ColdStart::run() const {
   const sim::Scene scene(this->scene());
-  const sim::Renderer renderer(scene, camera(), 4);
+  const sim::Renderer renderer(camera(), 4);
   const Eigen::Isometry3d T_base_camera = baseToCamera();
   odometry::WatchedOdometry odometry({}, calibration(),
                                      {T_base_camera.linear(), Eigen::Matrix3d::Identity()});
@@ -209,8 +210,8 @@ ColdStartCounts ColdStart::run() const {
   for (int i = 0; i < kFrames; ++i) {
     odometry::StereoFrame frame;
     frame.left_time_s = frame.right_time_s = kPeriod_s * i;
-    frame.left = image(renderer, false, i);
-    frame.right = image(renderer, true, i);
+    frame.left = image(scene, renderer, false, i);
+    frame.right = image(scene, renderer, true, i);
     if (has_imu_) {
       for (const ImuSample& sample :
            imu(kPeriod_s * (i - 1) + 0.5 * kImuPeriod_s, kPeriod_s * i + kImuPeriod_s))

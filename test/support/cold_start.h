@@ -47,7 +47,7 @@ class ColdStart {
   sim::SceneParams scene() const;
   sim::CameraCalibration camera() const;
   vision::StereoCalibration calibration() const;
-  cv::Mat image(const sim::Renderer& renderer, bool is_right, int frame) const;
+  cv::Mat image(const sim::Scene& scene, const sim::Renderer& renderer, bool is_right, int frame) const;
   void cover(bool is_right, int frame, cv::Mat& light) const;
   std::vector<ImuSample> imu(double from_s, double to_s) const;
 

@@ -66,7 +66,7 @@ void writeImages(ros_io::BagFile& bag, const Wiggle& wiggle) {
   for (const bool right : {false, true}) {
     const auto camera =
         sim::loadCameraCalibration(source + "/config/thesis/" + (right ? "right" : "left") + ".yaml");
-    const sim::Renderer renderer(scene, camera, 4);
+    const sim::Renderer renderer(camera, 4);
     const sim::ImageSensor sensor(camera.width, camera.height, sim::SensorParams(), sim::CameraResponse());
     Eigen::Isometry3d T_left_raw = Eigen::Isometry3d::Identity();
     T_left_raw.translation().x() = camera.offsetX_m();
@@ -81,7 +81,7 @@ void writeImages(ros_io::BagFile& bag, const Wiggle& wiggle) {
       header.stamp = kStart + ros::Duration(shutter.middle_s);
       header.frame_id = ros_io::frames::kLeftOptical;
       const std::uint64_t key = sim::streamKey(1, sim::Stream::kPixelNoise, right ? 1 : 0, frame);
-      const cv::Mat image = sensor.expose(renderer.render(path, shutter), key);
+      const cv::Mat image = sensor.expose(renderer.render(scene, path, shutter), key);
       namespace topics = ros_io::topics;
       bag.write(right ? topics::kRightImage : topics::kLeftImage, header.stamp, messageOf(image, header));
       bag.write(right ? topics::kRightInfo : topics::kLeftInfo, header.stamp, infoOf(camera, header));

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "nodes/base_bridge/base_messages.h"
+#include "ros/device_messages.h"
 #include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::nodes {
@@ -38,13 +38,13 @@ BasePublishers::BasePublishers(ros::NodeHandle handle, const ros_io::BaseBridgeP
 void BasePublishers::publish(const base::BaseReading& reading) {
   const base::Telemetry& telemetry = reading.telemetry;
   const ros::Time stamp = stamps_.at(reading.time_s);
-  ticks_.publish(toWheelTicks(telemetry, drive_, params_.base_frame, stamp));
-  joint_states_.publish(toJointState(telemetry, drive_, params_, stamp));
+  ticks_.publish(ros_io::toWheelTicks(telemetry, drive_, params_.base_frame, stamp));
+  joint_states_.publish(ros_io::toJointState(telemetry, drive_, params_, stamp));
   for (std::size_t i = 0; i < ranges_.size(); ++i)
-    ranges_[i].publish(toRange(telemetry.range_mm[i], params_.ranges[i], stamp));
+    ranges_[i].publish(ros_io::toRange(telemetry.range_mm[i], params_.ranges[i], stamp));
   if (telemetry.battery_mV > 0 && reading.arrival_s - battery_s_ >= kBatteryPeriod_s) {
     battery_s_ = reading.arrival_s;
-    battery_.publish(toBatteryState(telemetry.battery_mV, params_, stamp));
+    battery_.publish(ros_io::toBatteryState(telemetry.battery_mV, params_, stamp));
   }
   publishChanges(telemetry);
   last_ = telemetry;

@@ -2,9 +2,8 @@
 
 #include <sensor_msgs/LaserScan.h>
 
-#include <cmath>
-
 #include "core/rig_file.h"
+#include "ros/device_messages.h"
 #include "ros/parameter_server.h"
 
 namespace stereo_nav::nodes {
@@ -38,22 +37,8 @@ void LaserBridgeNode::run() {
   while (ros::ok()) device_.poll(kPoll_s, [this](const laser::Scan& scan) { publish(scan); });
 }
 
-/// The head turns clockwise: beams in the order of their times have falling angles.
 void LaserBridgeNode::publish(const laser::Scan& scan) {
-  sensor_msgs::LaserScan message;
-  message.header.stamp = stamps_.at(scan.time_s);
-  message.header.frame_id = params_.frame_id;
-  const auto beams = static_cast<double>(scan.ranges_m.size());
-  message.angle_min = 0.0F;
-  message.angle_increment = static_cast<float>(-2.0 * M_PI / beams);
-  message.angle_max = static_cast<float>(-2.0 * M_PI * (beams - 1.0) / beams);
-  message.time_increment = static_cast<float>(scan.time_increment_s);
-  message.scan_time = static_cast<float>(scan.scan_time_s);
-  message.range_min = static_cast<float>(params_.device.scan.range_min_m);
-  message.range_max = static_cast<float>(params_.device.scan.range_max_m);
-  message.ranges = scan.ranges_m;
-  message.intensities = scan.qualities;
-  scan_.publish(message);
+  scan_.publish(ros_io::toMessage(scan, params_, stamps_.at(scan.time_s)));
 }
 
 void LaserBridgeNode::watch(const ros::WallTimerEvent& /*event*/) {

@@ -2,9 +2,8 @@
 
 #include <sensor_msgs/Range.h>
 
-#include <cmath>
-
 #include "core/rig_file.h"
+#include "ros/device_messages.h"
 #include "ros/parameter_server.h"
 
 namespace stereo_nav::nodes {
@@ -56,15 +55,8 @@ void RangeBridgeNode::read(Finder& finder) {
 }
 
 void RangeBridgeNode::publish(Finder& finder, const range::RangeReading& reading) {
-  sensor_msgs::Range message;
-  message.header.stamp = finder.stamps.at(reading.time_s);
-  message.header.frame_id = finder.params.frame();
-  message.radiation_type = sensor_msgs::Range::INFRARED;
-  message.field_of_view = static_cast<float>(finder.params.field_of_view_deg * M_PI / 180.0);
-  message.min_range = static_cast<float>(finder.params.device.range_min_m);
-  message.max_range = static_cast<float>(finder.params.device.range_max_m);
-  message.range = static_cast<float>(reading.range_m);
-  finder.publisher.publish(message);
+  finder.publisher.publish(
+      ros_io::toMessage(reading.range_m, finder.params, finder.stamps.at(reading.time_s)));
 }
 
 void RangeBridgeNode::watch(const ros::WallTimerEvent& /*event*/) {

@@ -4,6 +4,7 @@
 
 #include "core/rig_file.h"
 #include "kinematics/drive_file.h"
+#include "nodes/simulator/driven_node.h"
 #include "nodes/simulator/simulator_node.h"
 #include "ros/calibration_url.h"
 #include "ros/capture_setup.h"
@@ -19,6 +20,7 @@ namespace {
 struct SimulatedRig {
   sim::StereoCalibrationPair calibration;
   Eigen::Isometry3d T_base_imu = Eigen::Isometry3d::Identity();
+  ros_io::DrivenDevices devices;  ///< of a driven robot
 };
 
 /// Calibration of one camera of the rig file.
@@ -34,9 +36,12 @@ auto loadCalibration(const std::string& url, const std::string& side) {
 }
 
 /// Without `~rig`, the thesis' rig with its cameras at the poses of the scenario.
-SimulatedRig readRig(const ros::NodeHandle& private_node, sim::Scenario& scenario) {
+SimulatedRig readRig(const ros::NodeHandle& private_node, bool is_driven, sim::Scenario& scenario) {
   const auto rig = private_node.param<std::string>("rig", "");
-  if (rig.empty()) return {sim::loadStereoCalibration(ros_io::thesisCalibrationFolder())};
+  if (rig.empty() && is_driven)
+    throw ParameterError("~driven needs ~rig, whose section `drive` says what moves");
+  if (rig.empty())
+    return {sim::loadStereoCalibration(ros_io::thesisCalibrationFolder()), Eigen::Isometry3d::Identity(), {}};
   ros_io::CaptureSetup setup;
   setup.read({ros_io::rigSource(private_node, rig_sections::kCameras)});
   const RigFile file = RigFile::load(rig);
@@ -45,7 +50,8 @@ SimulatedRig readRig(const ros::NodeHandle& private_node, sim::Scenario& scenari
   if (!file.section(rig_sections::kDrive).IsNull()) scenario.drive = kinematics::readDrive(file);
   return {{loadCalibration(setup.params.left.calibration, "left"),
            loadCalibration(setup.params.right.calibration, "right")},
-          mounting.imu.T_base_sensor()};
+          mounting.imu.T_base_sensor(),
+          is_driven ? ros_io::readDrivenDevices(file) : ros_io::DrivenDevices()};
 }
 
 std::vector<std::string> splitSettings(const std::string& text) {
@@ -64,14 +70,18 @@ int run() {
       params);
   sim::Scenario scenario =
       sim::loadScenario(ros_io::scenarioFile(params.scenario), splitSettings(params.settings));
-  const SimulatedRig rig = readRig(private_node, scenario);
-  const sim::Simulation simulation(scenario, rig.calibration, static_cast<std::uint64_t>(params.seed));
+  const SimulatedRig rig = readRig(private_node, params.driven, scenario);
   std::unique_ptr<ros_io::ImageProcLoader> image_proc;
   if (params.load_image_proc) {
     image_proc = std::make_unique<ros_io::ImageProcLoader>(true, ros_io::readDisparityParams(private_node));
   }
   ros::AsyncSpinner spinner(1);  // for nodelets and diagnostics
   spinner.start();
+  if (params.driven) {
+    DrivenSimulatorNode(node, {scenario, rig.calibration, rig.devices, rig.T_base_imu}, params).run();
+    return 0;
+  }
+  const sim::Simulation simulation(scenario, rig.calibration, static_cast<std::uint64_t>(params.seed));
   SimulatorNode(node, simulation, params, rig.T_base_imu).run();
   return 0;
 }

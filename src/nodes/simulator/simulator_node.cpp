@@ -133,16 +133,4 @@ void SimulatorNode::run() {
            static_cast<unsigned long>(next_to_render_), static_cast<unsigned long>(pairs_late_));
 }
 
-void SimulatorParams::describe(ParameterVisitor& visitor) {
-  visitor.text("scenario", scenario, "a file, or the name of one in config/scenarios");
-  visitor.text("settings", settings, "changes to the scenario: NAME=VALUE, separated by semicolons");
-  visitor.integer("seed", seed, {0, 1000000000}, "", "seed of noise, jitter and IMU errors");
-  visitor.integer("threads", threads, {1, 64}, "", "threads that render");
-  visitor.real("start_delay_s", start_delay_s, {0.0, 3600.0}, "s",
-               "from the start of the node to the first pair");
-  visitor.flag("publish_tf_static", publish_tf_static,
-               "publish where the sensors sit; off where rig_transforms does");
-  visitor.flag("load_image_proc", load_image_proc, "rectify and compute disparity in this process");
-}
-
 }  // namespace stereo_nav::nodes

@@ -10,22 +10,10 @@
 #include <memory>
 #include <string>
 
+#include "nodes/simulator/simulator_params.h"
 #include "ros/simulated_messages.h"
 
 namespace stereo_nav::nodes {
-
-/// Private parameters of the simulator.
-struct SimulatorParams {
-  std::string scenario = "arena";
-  std::string settings;
-  int seed = 1;
-  int threads = 1;
-  double start_delay_s = 1.0;
-  bool publish_tf_static = true;
-  bool load_image_proc = false;
-
-  void describe(ParameterVisitor& visitor);
-};
 
 /// Plays a simulation in real time on the topics of stereo_capture and imu_bridge, and publishes the ground
 /// truth. Pairs are rendered ahead of their time on `threads` threads. A pair that is not ready within two

@@ -22,7 +22,7 @@
 #include "nodes/range_correction/range_correction_params.h"
 #include "nodes/recorder/recorder_node.h"
 #include "nodes/rig_transforms/rig_transforms_params.h"
-#include "nodes/simulator/simulator_node.h"
+#include "nodes/simulator/simulator_params.h"
 #include "nodes/teleop/key_driver.h"
 #include "nodes/visual_odometry/visual_odometry_params.h"
 #include "nodes/wheel_odometry/wheel_odometry_node_params.h"

@@ -63,7 +63,10 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
       ("rig", po::value<std::string>(&options.rig),
        "rig file whose section drive describes the wheels: the bag gets wheel_ticks, too")  //
       ("true-rig", po::value<std::string>(&options.true_rig),
-       "rig file to write, with the wheels as they truly are (--set wheels.radius_sigma=0.01)")            //
+       "rig file to write, with the wheels as they truly are (--set wheels.radius_sigma=0.01)")  //
+      ("commands", po::value<std::string>(&options.commands),
+       "file of lines TIME FORWARD LEFT TURNING (s, m/s, m/s, rad/s) that drive the robot of --rig in place of the "
+       "scenario's path; the bag gets joint_states, scan, range/*, contacts, too")                         //
       ("duration", po::value<double>(&options.duration_s), "seconds to record (default: the whole path)")  //
       ("threads", po::value<int>(&options.threads), "for rendering; the result does not depend on it")     //
       ("no-images", "IMU and ground truth only")                                                           //
@@ -78,6 +81,9 @@ std::optional<SimulateOptions> parseSimulateOptions(int argc, char** argv) {
   if (options.output.empty()) throw InputError("no --output BAG given; see simulate --help");
   if (!options.true_rig.empty() && options.rig.empty())
     throw InputError("--true-rig needs --rig FILE, which has the nominal wheels");
+  if (!options.commands.empty() && options.rig.empty())
+    throw InputError(
+        "--commands needs --rig FILE, whose sections say what drives and measures, e.g. simulated.yaml");
   if (options.threads < 1) throw InputError("--threads must be 1 or more");
   if (!(options.duration_s > 0.0)) throw InputError("--duration must be a number of seconds above 0");
   if (values.count("time-offset-ms") != 0) {

@@ -12,16 +12,13 @@ namespace {
 
 namespace topics = ros_io::topics;
 
-/// ROS time of simulation time 0. Any date will do; a fixed one gives the same bytes every time.
-const ros::Time kStart(1000000000, 0);
-
 /// Writes the messages between pairs in order of arrival.
 class BagWriter {
  public:
   BagWriter(ros_io::BagFile& bag, const sim::Simulation& simulation,
             const ros_io::SimulatedMessages& messages)
       : bag_(bag), simulation_(simulation), messages_(messages) {
-    bag_.writeLatched(topics::kTfStatic, kStart, messages_.staticTransforms());
+    bag_.writeLatched(topics::kTfStatic, kBagStart, messages_.staticTransforms());
   }
 
   void writeUntil(double time_s) {
@@ -77,7 +74,7 @@ void writeSimulatedBag(const std::string& path, const sim::Simulation& simulatio
                        const std::function<void(std::size_t, std::size_t)>& progress) {
   ros_io::BagFile bag(path);
   bag.setCompression(options.compress ? rosbag::compression::BZ2 : rosbag::compression::Uncompressed);
-  const ros_io::SimulatedMessages messages(simulation, kStart);
+  const ros_io::SimulatedMessages messages(simulation, kBagStart);
   BagWriter writer(bag, simulation, messages);
 
   const auto& instants = simulation.pairs();

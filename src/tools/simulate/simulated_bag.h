@@ -7,6 +7,9 @@
 
 namespace stereo_nav::tools {
 
+/// ROS time of simulation time 0. Any date will do; a fixed one gives the same bytes every time.
+inline const ros::Time kBagStart(1000000000, 0);
+
 struct SimulatedBagOptions {
   double duration_s;
   int threads;

@@ -6,13 +6,17 @@
 #include <limits>
 
 #include "kinematics/layouts.h"
-#include "nodes/base_bridge/base_messages.h"
+#include "ros/device_messages.h"
 #include "stereo_nav/core/parameters.h"
 
 namespace stereo_nav::nodes {
 namespace {
 
 using base::Mode;
+using ros_io::toBatteryState;
+using ros_io::toJointState;
+using ros_io::toRange;
+using ros_io::toWheelTicks;
 
 /// The decisions of base_bridge for a differential drive with a servo, a range finder and a motor.
 class BaseControlTest : public testing::Test {

@@ -154,8 +154,7 @@ TEST(Renderer, WalkersMoveAndCylindersAreRound) {
 }
 
 TEST(Renderer, AnImpossibleNumberOfSamplesIsRefused) {
-  const Scene scene{SceneParams()};
-  EXPECT_THROW(Renderer(scene, thesisRig().left, 0), std::invalid_argument);
+  EXPECT_THROW(Renderer(thesisRig().left, 0), std::invalid_argument);
 }
 
 }  // namespace

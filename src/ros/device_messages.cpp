@@ -1,11 +1,11 @@
-#include "nodes/base_bridge/base_messages.h"
+#include "ros/device_messages.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "core/angles.h"
 
-namespace stereo_nav::nodes {
+namespace stereo_nav::ros_io {
 
 using kinematics::WheelKind;
 
@@ -26,7 +26,7 @@ WheelTicks toWheelTicks(const base::Telemetry& telemetry, const kinematics::Driv
 }
 
 sensor_msgs::JointState toJointState(const base::Telemetry& telemetry, const kinematics::DriveParams& drive,
-                                     const ros_io::BaseBridgeParams& params, ros::Time stamp) {
+                                     const BaseBridgeParams& params, ros::Time stamp) {
   sensor_msgs::JointState message;
   message.header.stamp = stamp;
   message.header.frame_id = params.base_frame;
@@ -44,7 +44,7 @@ sensor_msgs::JointState toJointState(const base::Telemetry& telemetry, const kin
   return message;
 }
 
-sensor_msgs::Range toRange(std::uint16_t range_mm, const ros_io::BaseRangeParams& finder, ros::Time stamp) {
+sensor_msgs::Range toRange(std::uint16_t range_mm, const BaseRangeParams& finder, ros::Time stamp) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   sensor_msgs::Range message;
   message.header.stamp = stamp;
@@ -60,7 +60,7 @@ sensor_msgs::Range toRange(std::uint16_t range_mm, const ros_io::BaseRangeParams
   return message;
 }
 
-sensor_msgs::BatteryState toBatteryState(std::uint16_t battery_mV, const ros_io::BaseBridgeParams& params,
+sensor_msgs::BatteryState toBatteryState(std::uint16_t battery_mV, const BaseBridgeParams& params,
                                          ros::Time stamp) {
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   using Battery = sensor_msgs::BatteryState;
@@ -80,4 +80,33 @@ sensor_msgs::BatteryState toBatteryState(std::uint16_t battery_mV, const ros_io:
   return message;
 }
 
-}  // namespace stereo_nav::nodes
+sensor_msgs::LaserScan toMessage(const laser::Scan& scan, const LaserBridgeParams& params, ros::Time stamp) {
+  sensor_msgs::LaserScan message;
+  message.header.stamp = stamp;
+  message.header.frame_id = params.frame_id;
+  const auto beams = static_cast<double>(scan.ranges_m.size());
+  message.angle_min = 0.0F;
+  message.angle_increment = static_cast<float>(-2.0 * kPi / beams);
+  message.angle_max = static_cast<float>(-2.0 * kPi * (beams - 1.0) / beams);
+  message.time_increment = static_cast<float>(scan.time_increment_s);
+  message.scan_time = static_cast<float>(scan.scan_time_s);
+  message.range_min = static_cast<float>(params.device.scan.range_min_m);
+  message.range_max = static_cast<float>(params.device.scan.range_max_m);
+  message.ranges = scan.ranges_m;
+  message.intensities = scan.qualities;
+  return message;
+}
+
+sensor_msgs::Range toMessage(double range_m, const RangeFinderParams& finder, ros::Time stamp) {
+  sensor_msgs::Range message;
+  message.header.stamp = stamp;
+  message.header.frame_id = finder.frame();
+  message.radiation_type = sensor_msgs::Range::INFRARED;
+  message.field_of_view = static_cast<float>(kRadPerDeg * finder.field_of_view_deg);
+  message.min_range = static_cast<float>(finder.device.range_min_m);
+  message.max_range = static_cast<float>(finder.device.range_max_m);
+  message.range = static_cast<float>(range_m);
+  return message;
+}
+
+}  // namespace stereo_nav::ros_io
