@@ -165,8 +165,8 @@ TEST(RigFiles, AreReadByAllWhoReadThem) {
     EXPECT_NO_THROW(fixedTransforms(robot)) << entry.path();
     EXPECT_NO_THROW(kinematics::WheelCommander(robot.drive, base.limits)) << entry.path();
   }
-  EXPECT_EQ(found,
-            (std::set<std::string>{"ackermann", "differential", "mecanum", "omni3", "swerve", "thesis"}));
+  EXPECT_EQ(found, (std::set<std::string>{"ackermann", "differential", "mecanum", "omni3", "simulated",
+                                          "swerve", "thesis"}));
 }
 
 }  // namespace
