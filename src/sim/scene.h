@@ -42,7 +42,7 @@ struct ObjectParams {
   double walk_y_m = 0.0;
   double walk_period_s = 10.0;
   double walk_phase = 0.0;  ///< share of the period that has passed at time 0
-  double from_s = 0.0;      ///< it is there from this time on,
+  double from_s = -1e9;     ///< it is there from this time on,
   double to_s = 1e9;        ///< until this one
   bool movable = false;     ///< a driven robot pushes it
   bool glass = false;       ///< a pane: shows what is behind it, mirrors what is before it
@@ -117,7 +117,7 @@ struct Solid {
   Eigen::Vector2d walk_m = Eigen::Vector2d::Zero();
   double walk_period_s = 1.0;
   double walk_phase = 0.0;
-  double from_s = 0.0;
+  double from_s = -1e9;  ///< before 0, too: the first exposure begins before its middle
   double to_s = 1e9;
   bool movable = false;
   std::string name;

@@ -35,7 +35,7 @@ void ObjectParams::describe(ParameterVisitor& visitor) {
   visitor.real("walk_y_m", walk_y_m, kPlace, "m", "it walks this far left and back");
   visitor.real("walk_period_s", walk_period_s, {0.1, 1e4}, "s", "time for there and back");
   visitor.real("walk_phase", walk_phase, {0.0, 1.0}, "", "share of the period that has passed at the start");
-  visitor.real("from_s", from_s, {0.0, 1e9}, "s", "it appears at this time");
+  visitor.real("from_s", from_s, {-1e9, 1e9}, "s", "it appears at this time");
   visitor.real("to_s", to_s, {0.0, 1e9}, "s", "it vanishes at this time");
   visitor.flag("movable", movable, "a driven robot pushes it; it does not turn");
   visitor.flag("glass", glass, "a pane of glass in the middle of its thinner side, at rest");

@@ -147,6 +147,7 @@ TEST(Renderer, WalkersMoveAndCylindersAreRound) {
   const Scene scene(scenario.scene);
   const Eigen::Vector3d origin(0.0, 0.0, 0.3), forward(1.0, 0.0, 0.0);
   EXPECT_NEAR(scene.castRay(origin, forward, 0.0), 2.8, 1e-7);
+  EXPECT_NEAR(scene.castRay(origin, forward, -0.006), 2.8, 1e-4) << "the first exposure begins before 0";
   EXPECT_NEAR(scene.castRay(origin + Eigen::Vector3d(0, 0.1, 0), forward, 0.0), 3.0 - std::sqrt(0.04 - 0.01),
               1e-7);
   EXPECT_GT(scene.castRay(origin, forward, 2.0), 10.0);  // it is 1 m to the left now
