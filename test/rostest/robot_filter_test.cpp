@@ -39,7 +39,8 @@ TEST(RobotFilter, AloneSaysWhereTheRobotIs) {
 }
 
 TEST(RobotFilter, AnUnknownPublisherOfTfIsRefusedByName) {
-  const CommandResult refused = runCommand("roslaunch --nodes stereo_nav robot.launch odom_tf:=laser");
+  const CommandResult refused =
+      runCommand("roslaunch --nodes " STEREO_NAV_SOURCE_DIR "/launch/robot.launch odom_tf:=laser");
   EXPECT_NE(refused.status, 0);
   EXPECT_NE(refused.output.find("odom_tf must be one of these"), std::string::npos) << refused.output;
   EXPECT_NE(refused.output.find("'laser'"), std::string::npos) << refused.output;

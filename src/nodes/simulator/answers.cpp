@@ -40,7 +40,8 @@ void Answers::awaitPublishers(double limit_s) {
 }
 
 void Answers::expect(std::uint64_t count) {
-  for (Topic& topic : topics_) topic.due = std::max(topic.due, topic.received) + count;
+  for (Topic& topic : topics_)
+    topic.due = topic.is_awaited ? std::max(topic.due, topic.received) + count : topic.received;
 }
 
 void Answers::await() {

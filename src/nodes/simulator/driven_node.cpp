@@ -177,13 +177,12 @@ void DrivenSimulatorNode::publishRendered() {
 }
 
 void DrivenSimulatorNode::runStepped() {
-  clock_ = handle_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  clock_ = handle_.advertise<rosgraph_msgs::Clock>("/clock", 10, true);  // who comes late learns the time
   publishClock();
   frame_answers_.awaitPublishers(params_.answer_limit_s);
   step_answers_.awaitPublishers(params_.answer_limit_s);
   const ros::WallTime begin = ros::WallTime::now() + ros::WallDuration(params_.start_delay_s);
   while (ros::ok() && ros::WallTime::now() < begin) {
-    publishClock();  // who has just come learns the time
     queue_.callAvailable(ros::WallDuration(0.05));
   }
   while (ros::ok()) {
