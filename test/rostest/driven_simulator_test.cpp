@@ -10,6 +10,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -71,10 +72,13 @@ class DrivenSimulator : public testing::Test {
     velocity_.publish(twist);
   }
 
-  void pause(bool is_paused) {
+  /// Returns the simulation's time, which the response ends with.
+  double pause(bool is_paused) {
     std_srvs::SetBool request;
     request.request.data = static_cast<unsigned char>(is_paused);
-    ASSERT_TRUE(ros::service::call("simulator/pause", request));
+    EXPECT_TRUE(ros::service::call("simulator/pause", request));
+    const std::size_t at = request.response.message.find(" at ");
+    return at == std::string::npos ? -1.0 : std::stod(request.response.message.substr(at + 4));
   }
 
   Drive driveFromTheStart() {
@@ -114,10 +118,11 @@ class DrivenSimulator : public testing::Test {
 
 TEST_F(DrivenSimulator, TheSameCommandsGiveTheSamePayloadsAndStamps) {
   ASSERT_TRUE(ros::service::waitForService("simulator/pause", 60000));
-  ASSERT_TRUE(spinUntil([this] { return clock_ >= kFirstStep && velocity_.getNumSubscribers() > 0; }));
-  pause(true);
-  velocity_.publish(geometry_msgs::Twist());
-  ASSERT_TRUE(spinUntil([this] {
+  ASSERT_TRUE(spinUntil([this] { return !clock_.is_zero() && velocity_.getNumSubscribers() > 0; }));
+  const double paused_s = pause(true);
+  if (paused_s > 0.0) velocity_.publish(geometry_msgs::Twist());  // ends the step that has begun
+  ASSERT_TRUE(spinUntil([this, paused_s] {
+    if (clock_.toSec() < 1000.0 + paused_s - 1e-6) return false;
     for (const auto& subscriber : subscribers_) {
       if (subscriber.getNumPublishers() == 0) return false;
     }
@@ -129,7 +134,11 @@ TEST_F(DrivenSimulator, TheSameCommandsGiveTheSamePayloadsAndStamps) {
   const Drive second = driveFromTheStart();
   for (const auto& [topic, messages] : first) {
     EXPECT_FALSE(messages.empty()) << topic;
-    EXPECT_TRUE(messages == second.at(topic)) << topic;
+    const auto& others = second.at(topic);
+    ASSERT_EQ(messages.size(), others.size()) << topic;
+    const auto differing = std::mismatch(messages.begin(), messages.end(), others.begin()).first;
+    EXPECT_EQ(differing - messages.begin(), static_cast<std::ptrdiff_t>(messages.size()))
+        << topic << ": the first message that differs";
   }
 }
 

@@ -54,6 +54,8 @@ DrivenSimulatorNode::DrivenSimulatorNode(const ros::NodeHandle& handle, DrivenSe
       setup_(std::move(setup)),
       params_(params),
       outlet_(handle_),
+      velocity_(handle_.subscribe(topics::kCmdVel, 10, &DrivenSimulatorNode::handleVelocity, this,
+                                  ros::TransportHints().tcpNoDelay())),
       frame_answers_(handle_, queue_, params.frame_answers, params.answer_limit_s),
       step_answers_(handle_, queue_, params.step_answers, params.answer_limit_s),
       updater_(handle_, ros::NodeHandle("~")) {
@@ -70,8 +72,6 @@ DrivenSimulatorNode::DrivenSimulatorNode(const ros::NodeHandle& handle, DrivenSe
   }
   services_ = {handle_.advertiseService("simulator/reset", &DrivenSimulatorNode::handleReset, this),
                handle_.advertiseService("simulator/pause", &DrivenSimulatorNode::handlePause, this)};
-  velocity_ = handle_.subscribe(topics::kCmdVel, 10, &DrivenSimulatorNode::handleVelocity, this,
-                                ros::TransportHints().tcpNoDelay());
   updater_.setHardwareID("none");
   updater_.add("simulated robot", this, &DrivenSimulatorNode::fillStatus);
   timer_ = handle_.createWallTimer(ros::WallDuration(1.0),

@@ -74,11 +74,12 @@ class DrivenSimulatorNode {
   std::deque<std::future<ros_io::PairMessages>> rendering_;
   std::uint64_t published_ = 0, dropped_ = 0, dropped_reported_ = 0, fallen_behind_ = 0;
   std::vector<std::string> contacts_;
+  ros::Subscriber
+      velocity_;  ///< before the answers: a velocity is obeyed before it counts as the answer of its step
   Answers frame_answers_, step_answers_;
   diagnostic_updater::Updater updater_;
   ros::Publisher clock_, tf_static_;
   std::vector<ros::ServiceServer> services_;
-  ros::Subscriber velocity_;
   ros::WallTimer timer_;
 };
 
