@@ -23,7 +23,6 @@ namespace {
 
 constexpr int kSteps = 60;
 constexpr double kStep_s = 0.02;
-const ros::Time kFirstStep(1000, 20000000);
 
 /// All messages of a drive by topic, as bytes behind the header; stamps count from its start.
 using Drive = std::map<std::string, std::vector<std::string>>;
@@ -63,7 +62,6 @@ class DrivenSimulator : public testing::Test {
 
   /// One velocity for each step; the last one is answered when the simulation stands.
   void answer(const ros::Time& clock) {
-    if (clock <= clock_) return;  // told again
     clock_ = clock;
     if (++steps_ >= kSteps) return;
     geometry_msgs::Twist twist;
