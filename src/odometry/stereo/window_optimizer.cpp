@@ -158,14 +158,16 @@ void WindowOptimizer::apply(const Eigen::VectorXd& step, std::vector<WindowFrame
 }
 
 bool WindowOptimizer::optimise(std::vector<WindowFrame>& window, std::vector<Landmark>& landmarks) {
-  solved_ = false;
+  factors_.reset();
   if (window.size() < 2) return false;
   for (int iteration = 0; iteration < params_.iterations; ++iteration) {
     if (!linearise(window, landmarks)) return false;
-    factors_.compute(information_);
-    const auto step = gaussNewtonStep(factors_, gradient_);
-    solved_ = step.has_value();
-    if (!solved_) return false;
+    factors_.emplace(information_);
+    const auto step = gaussNewtonStep(*factors_, gradient_);
+    if (!step) {
+      factors_.reset();
+      return false;
+    }
     apply(*step, window, landmarks);
   }
   return true;
@@ -174,16 +176,16 @@ bool WindowOptimizer::optimise(std::vector<WindowFrame>& window, std::vector<Lan
 std::optional<Matrix6d> WindowOptimizer::newestCovariance(const std::vector<WindowFrame>& window,
                                                           std::size_t since) const {
   const auto newest = static_cast<Eigen::Index>(6 * (window.size() - 2));
-  if (!solved_ || window.size() < 2 || factors_.rows() < newest + 6) return std::nullopt;
+  if (!factors_ || window.size() < 2 || factors_->rows() < newest + 6) return std::nullopt;
   // T_newest_since changes by the one perturbation and, carried there, against the other.
-  Eigen::MatrixXd by_motion = Eigen::MatrixXd::Zero(factors_.rows(), 6);
+  Eigen::MatrixXd by_motion = Eigen::MatrixXd::Zero(factors_->rows(), 6);
   by_motion.middleRows<6>(newest).setIdentity();
   if (since > 0) {
     const Eigen::Isometry3d T_newest_since =
         window.back().view.T_camera_world * window[since].view.T_camera_world.inverse();
     by_motion.middleRows<6>(poseAt(static_cast<int>(since))) = -adjoint(T_newest_since).transpose();
   }
-  const Matrix6d covariance = by_motion.transpose() * factors_.solve(by_motion);
+  const Matrix6d covariance = by_motion.transpose() * factors_->solve(by_motion);
   if (!covariance.allFinite()) return std::nullopt;
   return Matrix6d(0.5 * (covariance + covariance.transpose()));
 }

@@ -87,8 +87,8 @@ class WindowOptimizer {
   vision::StereoCalibration calibration_;
   Eigen::MatrixXd information_;  ///< reduced camera system, lower blocks
   Eigen::VectorXd gradient_;
-  Eigen::LDLT<Eigen::MatrixXd> factors_;  ///< of information_ in the last step
-  bool solved_ = false;                   ///< the last optimise() has determined all
+  /// Of information_ in the last step; nothing where the last optimise() did not determine it.
+  std::optional<Eigen::LDLT<Eigen::MatrixXd>> factors_;
   std::vector<Elimination> eliminations_;
   std::vector<CrossBlock> blocks_;
   std::vector<Eigen::Index> late_at_;  ///< first variable of T_late_camera per frame; negative without one
