@@ -41,12 +41,7 @@ class DrivenOutput : public sim::DrivenSink {
 
  protected:
   void writePair(const PairMessages& pair) {
-    const ros::Time time = messages_.stamp(pair.available_s);
-    out_.write(topics::kSync, time, pair.sync);
-    out_.write(topics::kLeftInfo, time, pair.left_info);
-    out_.write(topics::kRightInfo, time, pair.right_info);
-    out_.write(topics::kLeftImage, time, pair.left);
-    out_.write(topics::kRightImage, time, pair.right);
+    ros_io::writePair(pair, messages_.stamp(pair.available_s), out_);
   }
   const DrivenMessages& messages() const { return messages_; }
 

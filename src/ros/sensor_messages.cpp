@@ -12,14 +12,6 @@
 namespace stereo_nav::ros_io {
 namespace {
 
-geometry_msgs::Vector3 toVector(const Eigen::Vector3d& v) {
-  geometry_msgs::Vector3 message;
-  message.x = v.x();
-  message.y = v.y();
-  message.z = v.z();
-  return message;
-}
-
 geometry_msgs::TransformStamped sensorTransform(const ros::Time& stamp, const char* child,
                                                 const Eigen::Isometry3d& T) {
   geometry_msgs::TransformStamped message = tf2::eigenToTransform(T);
@@ -84,8 +76,8 @@ nav_msgs::Odometry toOdometry(const sim::BaseState& state, const ros::Time& stam
   odometry.header.frame_id = frames::kOdom;
   odometry.child_frame_id = frames::kBase;
   odometry.pose.pose = tf2::toMsg(state.T_world_base);
-  odometry.twist.twist.linear = toVector(state.velocity_base);
-  odometry.twist.twist.angular = toVector(state.angular_velocity_base);
+  tf2::toMsg(state.velocity_base, odometry.twist.twist.linear);
+  tf2::toMsg(state.angular_velocity_base, odometry.twist.twist.angular);
   return odometry;
 }
 
@@ -100,12 +92,12 @@ sensor_msgs::Imu toImu(const ImuSample& sample, const ros::Time& stamp, const Ei
     message.orientation_covariance[0] = -1.0;  // sensor_msgs/Imu: no such measurement
   }
   if (sample.angular_velocity) {
-    message.angular_velocity = toVector(T_base_imu.linear().transpose() * *sample.angular_velocity);
+    tf2::toMsg(T_base_imu.linear().transpose() * *sample.angular_velocity, message.angular_velocity);
   } else {
     message.angular_velocity_covariance[0] = -1.0;
   }
   if (sample.linear_acceleration) {
-    message.linear_acceleration = toVector(T_base_imu.linear().transpose() * *sample.linear_acceleration);
+    tf2::toMsg(T_base_imu.linear().transpose() * *sample.linear_acceleration, message.linear_acceleration);
   } else {
     message.linear_acceleration_covariance[0] = -1.0;
   }

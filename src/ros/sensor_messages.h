@@ -13,6 +13,7 @@
 #include "sim/trajectory.h"
 #include "stereo_nav/StereoSync.h"
 #include "stereo_nav/core/imu_sample.h"
+#include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::ros_io {
 
@@ -38,6 +39,16 @@ struct TakenImage {
 /// All but the ground truth. `start` is the stamp of simulation time 0.
 PairMessages toPairMessages(std::size_t index, const sim::PairInstants& instants, const TakenImage& left,
                             const TakenImage& right, double readout_s, const ros::Time& start);
+
+/// What of a pair the robot publishes, on its topics, to an `out` as DrivenOutput has it.
+template <class Out>
+void writePair(const PairMessages& pair, const ros::Time& time, Out& out) {
+  out.write(topics::kSync, time, pair.sync);
+  out.write(topics::kLeftInfo, time, pair.left_info);
+  out.write(topics::kRightInfo, time, pair.right_info);
+  out.write(topics::kLeftImage, time, pair.left);
+  out.write(topics::kRightImage, time, pair.right);
+}
 
 sensor_msgs::CameraInfo toCameraInfo(const sim::CameraCalibration& calibration,
                                      const std_msgs::Header& header);

@@ -22,19 +22,21 @@ double limited(double range_m, double least_m, double most_m) {
 LaserModel::LaserModel(const LaserModelParams& params, const LaserRig& rig, std::uint64_t seed)
     : params_(params), rig_(rig), random_(streamKey(seed, Stream::kLaser)) {}
 
-float LaserModel::measure(const Scene& scene, const MotionHistory& motion, double time_s, std::size_t beam) {
-  const Eigen::Isometry3d T_world_laser = motion.pose(time_s) * rig_.T_base_laser;
+float LaserModel::measure(const Scene& scene, const BasePath& base, double time_s, std::size_t beam) {
+  const Eigen::Isometry3d T_world_laser = base(time_s) * rig_.T_base_laser;
   const double angle_rad = -2.0 * kPi * static_cast<double>(beam) / rig_.scan.beams;
   const Eigen::Vector3d direction =
       T_world_laser.linear() * Eigen::Vector3d(std::cos(angle_rad), std::sin(angle_rad), 0.0);
-  const double noise_m = params_.noise_m * random_.normal();
+  const double normal = random_.normal();
   const bool lost = random_.uniform(0.0, 1.0) < params_.dropout;
   if (lost) return std::numeric_limits<float>::quiet_NaN();
-  const double range_m = scene.castRay(T_world_laser.translation(), direction, time_s) + noise_m;
-  return static_cast<float>(limited(range_m, rig_.scan.range_min_m, rig_.scan.range_max_m));
+  const double range_m = scene.castRay(T_world_laser.translation(), direction, time_s);
+  const double sigma_m = std::max(params_.noise_m, params_.noise_share * range_m);
+  return static_cast<float>(
+      limited(range_m + sigma_m * normal, rig_.scan.range_min_m, rig_.scan.range_max_m));
 }
 
-std::optional<laser::Scan> LaserModel::advance(const Scene& scene, const MotionHistory& motion) {
+std::optional<laser::Scan> LaserModel::advance(const Scene& scene, const BasePath& base, double now_s) {
   const auto beams = static_cast<std::size_t>(rig_.scan.beams);
   if (scan_.ranges_m.empty()) {
     scan_.scan_time_s = 1.0 / params_.rate_hz;
@@ -44,8 +46,8 @@ std::optional<laser::Scan> LaserModel::advance(const Scene& scene, const MotionH
   while (scan_.ranges_m.size() < beams) {
     const std::size_t beam = scan_.ranges_m.size();
     const double time_s = scan_.time_s + static_cast<double>(beam) * scan_.time_increment_s;
-    if (time_s > motion.time_s()) return std::nullopt;
-    scan_.ranges_m.push_back(measure(scene, motion, time_s, beam));
+    if (time_s > now_s) return std::nullopt;
+    scan_.ranges_m.push_back(measure(scene, base, time_s, beam));
     scan_.qualities.push_back(std::isfinite(scan_.ranges_m.back()) ? 47.0F : 0.0F);
   }
   ++revolutions_;

@@ -3,23 +3,24 @@
 #include <optional>
 
 #include "sim/driven_params.h"
-#include "sim/motion_history.h"
 #include "sim/random.h"
 #include "sim/scene.h"
+#include "sim/trajectory.h"
 
 namespace stereo_nav::sim {
 
-/// A turning laser on a driven robot: each beam is measured at its own time, from where the robot is then.
+/// A turning laser on a robot that moves: each beam is measured at its own time, from where the robot is
+/// then.
 class LaserModel {
  public:
   LaserModel(const LaserModelParams& params, const LaserRig& rig, std::uint64_t seed);
 
-  /// Measures the beams that are due until the end of the motion; returns the revolution when it is complete.
-  /// Calls must not be a revolution apart. `time_s` of the scan is simulation time.
-  std::optional<laser::Scan> advance(const Scene& scene, const MotionHistory& motion);
+  /// Measures the beams that are due until `now_s`, but no more than to the end of a revolution, which is
+  /// returned then. `base` is asked for the times of these beams; `time_s` of the scan is simulation time.
+  std::optional<laser::Scan> advance(const Scene& scene, const BasePath& base, double now_s);
 
  private:
-  float measure(const Scene& scene, const MotionHistory& motion, double time_s, std::size_t beam);
+  float measure(const Scene& scene, const BasePath& base, double time_s, std::size_t beam);
 
   LaserModelParams params_;
   LaserRig rig_;

@@ -23,6 +23,8 @@ void DrivenParams::describe(ParameterVisitor& visitor) {
 void LaserModelParams::describe(ParameterVisitor& visitor) {
   visitor.real("rate_hz", rate_hz, {0.1, 100.0}, "Hz", "revolutions per second");
   visitor.real("noise_m", noise_m, {0.0, 1.0}, "m", "standard deviation of a range");
+  visitor.real("noise_share", noise_share, {0.0, 1.0}, "",
+               "standard deviation as a share of the range, where that is more");
   visitor.real("dropout", dropout, {0.0, 1.0}, "", "share of the beams that measure nothing");
 }
 

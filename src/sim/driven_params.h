@@ -32,6 +32,7 @@ struct DrivenParams {
 struct LaserModelParams {
   double rate_hz = 10.0;
   double noise_m = 0.005;
+  double noise_share = 0.0;
   double dropout = 0.005;
 
   void describe(ParameterVisitor& visitor);

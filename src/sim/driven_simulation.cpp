@@ -63,7 +63,8 @@ void DrivenSimulation::deliver(DrivenSink& sink) {
   deliverImu(sink);
   deliverRanges(sink);
   for (LaserModel& laser : lasers_) {
-    if (const auto scan = laser.advance(scene_, motion_)) sink.takeScan(*scan);
+    const auto base = [this](double t) { return motion_.pose(t); };
+    if (const auto scan = laser.advance(scene_, base, time_s())) sink.takeScan(*scan);
   }
   deliverShot(sink);
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
 
@@ -9,16 +8,14 @@
 #include "sim/exposure_plan.h"
 #include "sim/renderer.h"
 #include "sim/scenario.h"
+#include "sim/trajectory.h"
 
 namespace stereo_nav::sim {
 
 enum class Side { kLeft, kRight };
 
-/// Pose of the base at a time: T_world_base. Called from the rendering thread.
-using BasePath = std::function<Eigen::Isometry3d(double time_s)>;
-
-/// The two cameras of a robot, wherever it goes. Const methods may be called from several threads; results
-/// depend on the arguments and the seed alone.
+/// The two cameras of a robot, wherever it goes. They ask for its poses in the thread that renders. Const
+/// methods may be called from several threads; results depend on the arguments and the seed alone.
 class StereoCameras {
  public:
   /// `calibration` is for rig.image_scale 1.

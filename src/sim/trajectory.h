@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct MotionParams {
 
   void describe(ParameterVisitor& visitor);
 };
+
+/// Pose of the base at a time: T_world_base.
+using BasePath = std::function<Eigen::Isometry3d(double time_s)>;
 
 /// Motion of `base_link` (on the floor, x forward, y left, z up) in the world, whose origin is the start.
 struct BaseState {

@@ -5,18 +5,6 @@
 #include "ros/pose_messages.h"
 
 namespace stereo_nav::nodes {
-namespace {
-
-geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& v) {
-  geometry_msgs::Vector3 message;
-  message.x = v.x();
-  message.y = v.y();
-  message.z = v.z();
-  return message;
-}
-
-}  // namespace
-
 nav_msgs::Odometry toOdometry(const estimation::FusedEstimate& estimate,
                               const estimation::FusionParams& params) {
   nav_msgs::Odometry odometry;
@@ -25,8 +13,7 @@ nav_msgs::Odometry toOdometry(const estimation::FusedEstimate& estimate,
   odometry.child_frame_id = params.base_link_frame;
   odometry.pose.pose = tf2::toMsg(estimate.T_world_base);
   ros_io::fillCovariance(estimate.pose_covariance, odometry.pose.covariance);
-  odometry.twist.twist.linear = toMessage(estimate.twist.head<3>());
-  odometry.twist.twist.angular = toMessage(estimate.twist.tail<3>());
+  odometry.twist.twist = tf2::toMsg(estimate.twist);
   ros_io::fillCovariance(estimate.twist_covariance, odometry.twist.covariance);
   return odometry;
 }
@@ -36,7 +23,7 @@ geometry_msgs::AccelWithCovarianceStamped toAcceleration(const estimation::Fused
   geometry_msgs::AccelWithCovarianceStamped acceleration;
   acceleration.header.stamp = ros::Time(estimate.time_s);
   acceleration.header.frame_id = params.base_link_frame;
-  acceleration.accel.accel.linear = toMessage(estimate.acceleration);
+  tf2::toMsg(estimate.acceleration, acceleration.accel.accel.linear);
   return acceleration;
 }
 

@@ -22,9 +22,9 @@
 
 namespace stereo_nav::nodes {
 
-/// Subscribes camera/disparity with both camera_infos and rectified images, scan and range/NAME; publishes
-/// obstacles and diagnostics; serves obstacles/clear. The nodelet uses the same class. All callbacks run in
-/// one thread.
+/// Subscribes camera/disparity with both camera_infos (and the rectified images, with `edges`), scan and
+/// range/NAME; publishes obstacles and diagnostics; serves obstacles/clear. The nodelet uses the same class.
+/// All callbacks run in one thread.
 ///
 /// A message waits for the robot's pose at its stamp. Drop rule: of each input at most kWaiting messages
 /// wait; the oldest gives way and is counted, as is one that has waited for `tf_wait_s`.

@@ -24,14 +24,6 @@ static_assert(static_cast<int>(State::kInitialising) == VoStatus::INITIALISING &
                   static_cast<int>(State::kLost) == VoStatus::LOST,
               "VoStatus.state carries the value of odometry::State");
 
-geometry_msgs::Vector3 toVector(const Eigen::Vector3d& v) {
-  geometry_msgs::Vector3 message;
-  message.x = v.x();
-  message.y = v.y();
-  message.z = v.z();
-  return message;
-}
-
 std::string reasonOf(const SessionOutput& output) {
   std::string reason = output.processed ? output.result.reason : "";
   for (const auto* problems : {&output.errors, &output.warnings}) {
@@ -73,8 +65,7 @@ void OdometryPublisher::publishOdometry(const ros_io::FrameMessages& frame,
   odometry->child_frame_id = params_.base_frame;
   odometry->pose.pose = tf2::toMsg(base.T_odom_base);
   ros_io::fillCovariance(base.pose_covariance, odometry->pose.covariance);
-  odometry->twist.twist.linear = toVector(base.twist.head<3>());
-  odometry->twist.twist.angular = toVector(base.twist.tail<3>());
+  odometry->twist.twist = tf2::toMsg(base.twist);
   ros_io::fillCovariance(base.twist_covariance, odometry->twist.covariance);
   odometry_publisher_.publish(odometry);
   publishPath(odometry->header, odometry->pose.pose);

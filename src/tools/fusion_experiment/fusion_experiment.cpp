@@ -7,6 +7,7 @@
 
 #include "core/angles.h"
 #include "core/atomic_file.h"
+#include "core/statistics.h"
 #include "kinematics/drive_file.h"
 #include "ros/package_files.h"
 #include "sim/simulation.h"
@@ -88,7 +89,7 @@ std::string rowOf(const Subset& subset, const std::vector<ComparedPose>& all, in
   for (const ComparedPose& pose : all) {
     whole.add(pose.error);
     nees += pose.nees;
-    if (pose.nees < 7.815) inside += 1.0;
+    if (pose.nees < chiSquareQuantile(3, 0.95)) inside += 1.0;
   }
   for (const ComparedPose& pose : alongTheWay(all, poses)) at_poses.add(pose.error);
   const Eigen::Vector3d rmse = at_poses.value(), over_all = whole.value(), end = all.back().error;

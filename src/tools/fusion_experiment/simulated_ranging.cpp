@@ -3,41 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "core/angles.h"
 #include "core/planar_motion.h"
+#include "sim/distance_sensors.h"
 #include "sim/random.h"
 
 namespace stereo_nav::tools {
 namespace {
 
-constexpr int kBeams = 360;
-constexpr double kScanPeriod_s = 0.1;
-constexpr double kLongest_m = 12.0;
-constexpr double kShortest_m = 0.15;
-constexpr double kDropouts = 0.03;
-constexpr double kRangeSigma_m = 0.01;
+constexpr double kFinderLongest_m = 12.0;
 constexpr double kRangeBias_m = 0.05;
 constexpr double kFinderLever_m = 0.15;
 constexpr double kCell_m = 0.02;
-/// Streams of random numbers beyond those of the simulator.
-constexpr std::uint64_t kScanStream = 101, kRangeStream = 102;
-
-/// Distance along a level beam that leaves the base at an angle.
-double distanceAlong(const sim::Scene& scene, const Eigen::Isometry3d& T_world_base,
-                     const Eigen::Isometry2d& T_base_beam, double time_s) {
-  const Eigen::Isometry3d T =
-      T_world_base * Eigen::Translation3d(0.0, 0.0, kRangingHeight_m) * inSpace(T_base_beam);
-  return scene.castRay(T.translation(), T.linear().col(0), time_s);
-}
-
-Eigen::Isometry2d beamAt(double angle_rad, double lever_m) {
-  Eigen::Isometry2d T = Eigen::Isometry2d::Identity();
-  T.linear() = Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
-  T.translation() = lever_m * T.linear().col(0);
-  return T;
-}
 
 bool holds(const sim::Solid& solid, const Eigen::Vector3d& p_world) {
   const Eigen::Vector3d p = (solid.R_solid_world * (p_world - solid.p_world)).cwiseAbs();
@@ -51,32 +30,24 @@ bool holds(const sim::Solid& solid, const Eigen::Vector3d& p_world) {
 
 std::vector<odometry::LaserScan> simulateScans(const sim::Scene& scene, const sim::Trajectory& trajectory,
                                                std::uint64_t seed) {
-  sim::RandomStream random(sim::streamKey(seed, kScanStream));
+  sim::LaserModelParams params;
+  params.noise_share = 0.01;
+  params.dropout = 0.03;
+  sim::LaserRig rig;
+  rig.T_base_laser.translation().z() = kRangingHeight_m;
+  sim::LaserModel laser(params, rig, seed);
+  const auto base = [&trajectory](double time_s) { return trajectory.pose(time_s); };
   std::vector<odometry::LaserScan> scans;
-  for (int i = 0; (i + 1) * kScanPeriod_s < trajectory.duration_s(); ++i) {
-    odometry::LaserScan scan;
-    scan.time_s = i * kScanPeriod_s;
-    scan.angle_increment_rad = 2.0 * kPi / kBeams;
-    scan.time_increment_s = kScanPeriod_s / kBeams;
-    scan.range_min_m = kShortest_m;
-    scan.range_max_m = kLongest_m;
-    for (int beam = 0; beam < kBeams; ++beam) {
-      const double time_s = scan.time_s + beam * scan.time_increment_s;
-      const double range_m =
-          distanceAlong(scene, trajectory.pose(time_s), beamAt(beam * scan.angle_increment_rad, 0.0), time_s);
-      const double noise_m = std::max(0.005, 0.01 * range_m) * random.normal();
-      const bool lost = random.uniform(0.0, 1.0) < kDropouts || range_m > kLongest_m || range_m < kShortest_m;
-      scan.ranges_m.push_back(lost ? std::numeric_limits<float>::infinity()
-                                   : static_cast<float>(range_m + noise_m));
-    }
-    scans.push_back(std::move(scan));
+  while (auto scan = laser.advance(scene, base, trajectory.duration_s())) {
+    scans.push_back({scan->time_s, 0.0, -2.0 * kPi / rig.scan.beams, scan->time_increment_s,
+                     rig.scan.range_min_m, rig.scan.range_max_m, std::move(scan->ranges_m)});
   }
   return scans;
 }
 
 std::vector<estimation::RangeReading> simulateRanges(const sim::Scene& scene,
                                                      const sim::Trajectory& trajectory, std::uint64_t seed) {
-  sim::RandomStream random(sim::streamKey(seed, kRangeStream));
+  sim::RandomStream random(sim::streamKey(seed, sim::Stream::kRange));
   std::array<double, kRangeFinders> bias_m{};
   for (double& bias : bias_m) bias = random.uniform(-kRangeBias_m, kRangeBias_m);
   std::vector<estimation::RangeReading> readings;
@@ -85,13 +56,19 @@ std::vector<estimation::RangeReading> simulateRanges(const sim::Scene& scene,
       estimation::RangeReading reading;
       reading.sensor = finder;
       reading.time_s = i * kRangePeriod_s;
-      reading.T_base_sensor = beamAt(0.5 * kPi * static_cast<double>(finder), kFinderLever_m);
+      const Eigen::Isometry2d beam(Eigen::Rotation2Dd(0.5 * kPi * static_cast<double>(finder)) *
+                                   Eigen::Translation2d(kFinderLever_m, 0.0));
+      reading.T_base_sensor = beam;
       reading.half_width_rad = 0.02;
-      reading.max_range_m = kLongest_m;
-      const double range_m =
-          distanceAlong(scene, trajectory.pose(reading.time_s), reading.T_base_sensor, reading.time_s);
-      reading.range_m = range_m + bias_m[finder] + kRangeSigma_m * random.normal();
-      if (range_m < kLongest_m && reading.range_m > 0.0) readings.push_back(reading);
+      reading.max_range_m = kFinderLongest_m;
+      sim::RangeRig rig;
+      rig.T_base_sensor = Eigen::Translation3d(0.0, 0.0, kRangingHeight_m) * inSpace(beam);
+      rig.field_of_view_rad = 2.0 * reading.half_width_rad;
+      rig.range_max_m = reading.max_range_m;
+      const double range_m = sim::measureRange(sim::RangeModelParams(), rig, scene,
+                                               trajectory.pose(reading.time_s), reading.time_s, random);
+      reading.range_m = range_m + bias_m[finder];
+      if (std::isfinite(range_m) && reading.range_m > 0.0) readings.push_back(reading);
     }
   }
   return readings;

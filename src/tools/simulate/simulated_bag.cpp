@@ -45,11 +45,7 @@ class BagWriter {
   void write(const ros_io::PairMessages& pair) {
     writeUntil(pair.available_s);
     const ros::Time arrival = messages_.stamp(pair.available_s);
-    bag_.write(topics::kSync, arrival, pair.sync);
-    bag_.write(topics::kLeftInfo, arrival, pair.left_info);
-    bag_.write(topics::kRightInfo, arrival, pair.right_info);
-    bag_.write(topics::kLeftImage, arrival, pair.left);
-    bag_.write(topics::kRightImage, arrival, pair.right);
+    ros_io::writePair(pair, arrival, bag_);
     bag_.write(topics::kGroundTruth, arrival, pair.ground_truth);
   }
 
