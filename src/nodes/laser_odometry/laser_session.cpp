@@ -49,7 +49,9 @@ std::optional<double> LaserSession::ahead_s(const std::optional<double>& newest_
 bool LaserSession::covered(const odometry::LaserScan& scan) const {
   const double end_s = scan.time_s + scan.sweep_s();
   for (const auto& newest_s : {newest_wheels_s_, newest_imu_s_}) {
-    if (newest_s && *newest_s<end_s&& * newest_s> end_s - kHeard_s) return false;
+    if (!newest_s) continue;
+    const double missing_s = end_s - *newest_s;
+    if (missing_s > 0.0 && missing_s < kHeard_s) return false;
   }
   return true;
 }
@@ -70,11 +72,17 @@ LaserSessionOutput LaserSession::take(double now_s) {
   return output;
 }
 
-void LaserSession::restart() {
+/// Wheels and IMU may have come with the new clock before a scan did: those that are nearer to this scan than
+/// to the last one are kept.
+void LaserSession::restart(double scan_s) {
+  const double between_s = 0.5 * (last_->time_s + scan_s);
+  odometry::MotionInputs inputs = std::move(odometry_->inputs());
+  inputs.forgetNewerThan(between_s);
   odometry_ = std::make_unique<odometry::LaserOdometry>(params_);
+  odometry_->inputs() = std::move(inputs);
   odometry_->setPose(last_->T_odom_base, last_->pose_covariance);
-  newest_wheels_s_.reset();
-  newest_imu_s_.reset();
+  for (std::optional<double>* newest_s : {&newest_wheels_s_, &newest_imu_s_})
+    if (*newest_s && **newest_s > between_s) newest_s->reset();
   last_.reset();
 }
 
@@ -85,7 +93,7 @@ void LaserSession::process(const Waiting& waiting, LaserSessionOutput& output) {
         "the stamps of the scans went back by {:.1f} s: the clock was set back, or a bag starts again. The "
         "odometry goes on from its last pose",
         last_->time_s - scan.time_s));
-    restart();
+    restart(scan.time_s);
   }
   if (last_ && scan.time_s <= last_->time_s) {
     ++counts_.dropped;

@@ -73,7 +73,7 @@ class LaserSession {
   std::optional<double> ahead_s(const std::optional<double>& newest_s) const;
   bool covered(const odometry::LaserScan& scan) const;
   bool due(const Waiting& waiting, double now_s) const;
-  void restart();
+  void restart(double scan_s);
   void process(const Waiting& waiting, LaserSessionOutput& output);
 
   odometry::LaserParams params_;

@@ -47,9 +47,9 @@ void MotionInputs::addImu(const ImuSample& sample, const Eigen::Matrix3d& R_base
   gyro_.add(rates);
 }
 
-void MotionInputs::clear() {
-  wheels_.clear();
-  gyro_.clear();
+void MotionInputs::forgetNewerThan(double time_s) {
+  if (!wheels_.empty() && wheels_.back().time_s > time_s) wheels_.clear();
+  if (!gyro_.empty() && gyro_.newest_s() > time_s) gyro_.clear();
 }
 
 double MotionInputs::newestWheels_s() const {

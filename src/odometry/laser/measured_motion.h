@@ -34,7 +34,9 @@ class MotionInputs {
   /// Only its angular rate counts; an attitude stands in where the IMU gives no rates: magnetic fields bend a
   /// yaw, a gyroscope does not feel them.
   void addImu(const ImuSample& sample, const Eigen::Matrix3d& R_base_imu);
-  void clear();
+  /// Forgets the wheels, and the gyroscope, whose newest sample is later: their clock has been set back
+  /// since.
+  void forgetNewerThan(double time_s);
 
   double newestWheels_s() const;
   double newestImu_s() const { return gyro_.newest_s(); }

@@ -84,6 +84,41 @@ TEST_F(LaserSessionTest, aClockThatIsSetBackMovesNoRobot) {
   EXPECT_EQ(session.take(2.2).readings.size(), 1u);
 }
 
+TEST_F(LaserSessionTest, wheelsThatComeBeforeTheFirstScanOfABagThatStartsAgainAreKept) {
+  fed_s = 100.0;
+  for (int i = 0; i <= 20; ++i) {
+    addWheelsUpTo(100.15 + 0.1 * i);
+    session.addScan(scan(100.0 + 0.1 * i), 7, 0.1 * i);
+    ASSERT_EQ(session.take(0.1 * i).readings.size(), 1u);
+  }
+  fed_s = 0.9;
+  for (int i = 0; i <= 20; ++i) {
+    addWheelsUpTo(1.15 + 0.1 * i);
+    session.addScan(scan(1.0 + 0.1 * i), 7, 3.0 + 0.1 * i);
+    const LaserSessionOutput output = session.take(3.0 + 0.1 * i);
+    ASSERT_EQ(output.readings.size(), 1u) << "nothing is waited for, scan " << i;
+    EXPECT_EQ(output.announcements.size(), i == 0 ? 1u : 0u);
+    EXPECT_TRUE(output.readings[0].result.wheels) << "scan " << i;
+  }
+  EXPECT_EQ(session.counts().without_prior, 0u);
+}
+
+TEST_F(LaserSessionTest, wheelsOfTheOldClockTellNothingOfTheNewOne) {
+  fed_s = 100.0;
+  for (int i = 0; i <= 20; ++i) {
+    addWheelsUpTo(100.15 + 0.1 * i);
+    session.addScan(scan(100.0 + 0.1 * i), 7, 0.1 * i);
+    session.take(0.1 * i);
+  }
+  // Back by two seconds, into what the wheels had covered before.
+  for (int i = 0; i <= 5; ++i) {
+    session.addScan(scan(100.3 + 0.1 * i), 7, 3.0 + 0.1 * i);
+    const LaserSessionOutput output = session.take(3.0 + 0.1 * i);
+    ASSERT_EQ(output.readings.size(), 1u);
+    EXPECT_FALSE(output.readings[0].result.wheels) << "scan " << i;
+  }
+}
+
 TEST_F(LaserSessionTest, aScanThatCannotBeUsedIsSaid) {
   Eigen::Isometry3d tilted = Eigen::Isometry3d::Identity();
   tilted.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY()));
