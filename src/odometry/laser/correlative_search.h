@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "odometry/laser/line_map.h"
 #include "odometry/laser/pose_filter.h"
+#include "odometry/laser/search_raster.h"
 
 namespace stereo_nav::odometry {
 
@@ -13,17 +13,19 @@ namespace stereo_nav::odometry {
 /// correlative scan matching": a coarse raster says where the fine one is looked at). They need no start near
 /// the solution, and are as exact as the raster. At most `kSearchResults`, the best one first, none beside a
 /// better one: places that look alike differ by less than the raster's errors, and only a registration at
-/// each of them tells them apart. `points_base` are undistorted.
-std::vector<Eigen::Vector3d> searchShifts(const std::vector<Eigen::Vector2d>& points_base, const LineMap& map,
-                                          const PlanarState& prior, const Eigen::Matrix3d& prior_covariance);
+/// each of them tells them apart. `points_base` are undistorted; the map is drawn on `raster` around the
+/// prior's position.
+std::vector<Eigen::Vector3d> searchShifts(const std::vector<Eigen::Vector2d>& points_base,
+                                          const SearchRaster& raster, const PlanarState& prior,
+                                          const Eigen::Matrix3d& prior_covariance);
 
 /// What is compared: the share of points on the map against the squared shift over the prior's covariance, in
 /// the logarithm of a likelihood. A scan all on the map outweighs any prior.
 double searchScore(double share, double squared_shift);
 
 constexpr std::size_t kSearchResults = 5;
-/// Raster of the search.
-constexpr double kSearchStep_m = 0.1;
+/// Steps of the search.
+constexpr double kSearchStep_m = SearchRaster::kCell_m;
 constexpr double kSearchStep_rad = 0.025;
 
 }  // namespace stereo_nav::odometry

@@ -180,7 +180,7 @@ void LaserOdometry::lay(const LaserPoints& points, const Sweep& sweep, LaserOdom
   addKeyframe(points, sweep, registration);
 }
 
-Registration LaserOdometry::registerOrSearch(const LaserPoints& points, const Sweep& sweep) const {
+Registration LaserOdometry::registerOrSearch(const LaserPoints& points, const Sweep& sweep) {
   const PlanarState& prior = filter_.state();
   const Matrix6d covariance = filter_.relativeCovariance();
   const bool vague =
@@ -191,8 +191,9 @@ Registration LaserOdometry::registerOrSearch(const LaserPoints& points, const Sw
   if (!doubtful && (!vague || direct.inlier_share > 1.0 - kBetterShare)) return direct;
   std::vector<Eigen::Vector2d> points_base;
   sweep.undistort(points, prior.correction, points_base);
+  raster_.draw(map_, prior.p_odom);
   std::vector<Eigen::Vector3d> starts =
-      searchShifts(points_base, map_, prior, covariance.topLeftCorner<3, 3>());
+      searchShifts(points_base, raster_, prior, covariance.topLeftCorner<3, 3>());
   starts.emplace_back(Eigen::Vector3d::Zero());  // the prior itself, but with the walls right beside it
   Registration best = direct;
   for (const Eigen::Vector3d& start : starts) {

@@ -13,6 +13,7 @@
 #include "odometry/laser/range_flow.h"
 #include "odometry/laser/registration.h"
 #include "odometry/laser/rest_watch.h"
+#include "odometry/laser/search_raster.h"
 
 namespace stereo_nav::odometry {
 
@@ -70,7 +71,7 @@ class LaserOdometry {
   void followFlow(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser, LaserOdometryResult& result);
   void match(const LaserScan& scan, const Eigen::Isometry3d& T_base_laser, LaserOdometryResult& result);
   void lay(const LaserPoints& points, const Sweep& sweep, LaserOdometryResult& result);
-  Registration registerOrSearch(const LaserPoints& points, const Sweep& sweep) const;
+  Registration registerOrSearch(const LaserPoints& points, const Sweep& sweep);
   std::string refusal(const Registration& registration) const;
   bool isKeyframe() const;
   void addKeyframe(const LaserPoints& points, const Sweep& sweep, const Registration& registration);
@@ -80,6 +81,7 @@ class LaserOdometry {
   MotionInputs inputs_;
   PoseFilter filter_;
   LineMap map_;
+  SearchRaster raster_;  ///< of the map
   RangeFlow flow_;
   RestWatch rest_;
   std::optional<double> last_s_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace stereo_nav::odometry {
 namespace {
@@ -19,12 +18,11 @@ constexpr double kCellSigmas = 2.7;
 /// So many empty cells may stay.
 constexpr std::size_t kLeastCells = 1000;
 
-std::uint64_t keyOf(int ix, int iy) {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ix)) << 32U) | static_cast<std::uint32_t>(iy);
-}
-
+/// std::floor() is a call of a function on processors without SSE 4.1.
 int indexOf(double value_m, double cell_m) {
-  return static_cast<int>(std::floor(value_m / cell_m));
+  const double cells = value_m / cell_m;
+  const int towards_zero = static_cast<int>(cells);
+  return towards_zero - (cells < towards_zero ? 1 : 0);
 }
 
 }  // namespace
@@ -35,6 +33,7 @@ LineMap::LineMap(double cell_m, int keyframes)
 void LineMap::clear() {
   for (Grid& grid : grids_) grid.clear();
   scans_.clear();
+  ++changes_;
 }
 
 void LineMap::add(const std::vector<Eigen::Vector2d>& points_map) {
@@ -51,15 +50,14 @@ void LineMap::add(const std::vector<Eigen::Vector2d>& points_map) {
 void LineMap::forgetEmptyCells(int level) {
   Grid& grid = grids_[static_cast<std::size_t>(level)];
   std::size_t& forget_at = forget_at_[static_cast<std::size_t>(level)];
-  if (grid.size() < forget_at) return;
-  for (auto entry = grid.begin(); entry != grid.end();)
-    entry = entry->second.n < 0.5 ? grid.erase(entry) : std::next(entry);
-  forget_at = 2 * grid.size() + kLeastCells;
+  if (grid.cells() < forget_at) return;
+  grid.forget([](const Cell& cell) { return cell.n < 0.5; });
+  forget_at = 2 * grid.cells() + kLeastCells;
 }
 
 std::size_t LineMap::cells() const {
   std::size_t sum = 0;
-  for (const Grid& grid : grids_) sum += grid.size();
+  for (const Grid& grid : grids_) sum += grid.cells();
   return sum;
 }
 
@@ -73,7 +71,7 @@ void LineMap::addTo(int level, const Eigen::Vector2d& p_map, double sign) {
   Grid& grid = grids_[static_cast<std::size_t>(level)];
   const double size_m = cell_m(level);
   const int ix = indexOf(p_map.x(), size_m), iy = indexOf(p_map.y(), size_m);
-  Cell& cell = grid[keyOf(ix, iy)];
+  Cell& cell = grid.at(ix, iy);
   const double x = p_map.x() - (ix + 0.5) * size_m, y = p_map.y() - (iy + 0.5) * size_m;
   cell.n += sign;
   cell.x += sign * x;
@@ -81,27 +79,27 @@ void LineMap::addTo(int level, const Eigen::Vector2d& p_map, double sign) {
   cell.xx += sign * x * x;
   cell.xy += sign * x * y;
   cell.yy += sign * y * y;
+  if (cell.n < 0.5) cell.x = cell.y = cell.xx = cell.xy = cell.yy = 0.0;  // without rounding errors
   if (cell.last_change == changes_) return;
   cell.last_change = changes_;
   cell.keyframes += sign > 0.0 ? 1 : -1;
   if (cell.n < 0.5) cell = Cell();
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
-      const auto neighbour = grid.find(keyOf(ix + dx, iy + dy));
-      if (neighbour != grid.end()) neighbour->second.fitted = false;
+      if (Cell* neighbour = grid.find(ix + dx, iy + dy)) neighbour->fitted = false;
     }
   }
 }
 
 std::optional<MapLine> LineMap::fit(int level, int ix, int iy) const {
-  const Grid& grid = grids_[static_cast<std::size_t>(level)];
+  Grid& grid = grids_[static_cast<std::size_t>(level)];
   const double size_m = cell_m(level);
   Cell sum;
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
-      const auto found = grid.find(keyOf(ix + dx, iy + dy));
-      if (found == grid.end()) continue;
-      const Cell& cell = found->second;
+      const Cell* found = grid.find(ix + dx, iy + dy);
+      if (found == nullptr) continue;
+      const Cell& cell = *found;
       const double ox = dx * size_m, oy = dy * size_m;
       sum.n += cell.n;
       sum.x += cell.x + cell.n * ox;
@@ -142,7 +140,7 @@ const MapLine* LineMap::lineAt(const Eigen::Vector2d& p_map, int level) const {
   for (; level <= coarsest; ++level) {
     const double size_m = cell_m(level);
     const int ix = indexOf(p_map.x(), size_m), iy = indexOf(p_map.y(), size_m);
-    Cell& cell = grids_[static_cast<std::size_t>(level)][keyOf(ix, iy)];
+    Cell& cell = grids_[static_cast<std::size_t>(level)].at(ix, iy);
     if (!cell.fitted) {
       cell.line = fit(level, ix, iy);
       cell.fitted = true;

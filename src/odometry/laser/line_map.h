@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <unordered_map>
 #include <vector>
+
+#include "odometry/laser/cell_grid.h"
 
 namespace stereo_nav::odometry {
 
@@ -41,6 +42,8 @@ class LineMap {
   int levelFor(double sigma_m) const;
   /// The line at `p_map` on `level`, or on the next coarser ones; nothing where the map holds none there.
   const MapLine* lineAt(const Eigen::Vector2d& p_map, int level) const;
+  /// Another number after each change.
+  std::uint64_t version() const { return changes_; }
   /// Cells in memory, of all levels.
   std::size_t cells() const;
   double cell_m(int level) const { return cell_m_ * static_cast<double>(1 << level); }
@@ -50,13 +53,13 @@ class LineMap {
 
  private:
   struct Cell {
-    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;  ///< about the middle of the cell
-    int keyframes = 0;
-    std::uint64_t last_change = 0;
-    bool fitted = false;
     std::optional<MapLine> line;
+    bool fitted = false;
+    int keyframes = 0;
+    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;  ///< about the middle of the cell
+    std::uint64_t last_change = 0;
   };
-  using Grid = std::unordered_map<std::uint64_t, Cell>;
+  using Grid = CellGrid<Cell>;
 
   void change(const std::vector<Eigen::Vector2d>& points_map, double sign);
   void forgetEmptyCells(int level);

@@ -32,17 +32,40 @@ PoseUncertainty uncertaintyOf(const Matrix6d& covariance) {
   return {0.5 * (covariance(0, 0) + covariance(1, 1)), covariance(2, 2)};
 }
 
+/// Sum of w v v^T, by its lower triangle.
+class OuterProducts {
+ public:
+  void add(double w, const Eigen::Vector3d& v) {
+    const double x = w * v.x(), y = w * v.y();
+    xx_ += x * v.x();
+    yx_ += x * v.y();
+    zx_ += x * v.z();
+    yy_ += y * v.y();
+    zy_ += y * v.z();
+    zz_ += w * v.z() * v.z();
+  }
+  Eigen::Matrix3d sum() const {
+    Eigen::Matrix3d result;
+    result << xx_, yx_, zx_, yx_, yy_, zy_, zx_, zy_, zz_;
+    return result;
+  }
+
+ private:
+  double xx_ = 0.0, yx_ = 0.0, zx_ = 0.0, yy_ = 0.0, zy_ = 0.0, zz_ = 0.0;
+};
+
 /// The normal equations of one linearisation, for a motion (forward, left, rotation) of the base.
 struct NormalEquations {
-  Eigen::Matrix3d M0 = Eigen::Matrix3d::Zero();  ///< sum of J^T W J
-  Eigen::Matrix3d M1 = Eigen::Matrix3d::Zero();  ///< the same times the beam's time
-  Eigen::Matrix3d M2 = Eigen::Matrix3d::Zero();  ///< and times its square
+  OuterProducts M0;       ///< sum of J^T W J
+  OuterProducts M1;       ///< the same times the beam's time
+  OuterProducts M2;       ///< and times its square
+  OuterProducts feigned;  ///< ScanInformation::feigned
   Eigen::Vector3d g0 = Eigen::Vector3d::Zero();
   Eigen::Vector3d g1 = Eigen::Vector3d::Zero();
   ScanInformation information;
   double squared_levers = 0.0;
   double keyframes = 0.0;
-  std::vector<double> normalised;  ///< magnitudes of the residuals over their standard deviations
+  std::vector<double> squares;  ///< of the residuals, over their variances
 };
 
 using DynamicMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
@@ -132,7 +155,7 @@ class Registrar {
     const Eigen::Matrix2d R = rotation(shift);
     const Eigen::Vector2d p_odom = prior_.p_odom + shift.head<2>();
     equations_ = NormalEquations();
-    equations_.normalised.reserve(points_.size());
+    equations_.squares.reserve(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Eigen::Vector2d lever = R * points_[i];
       const double range_m = scan_.points[i].range_m;
@@ -143,7 +166,8 @@ class Registrar {
       if (line == nullptr) continue;
       addPoint(i, *line, p_map, lever, R, noise_m, pose_m2);
     }
-    equations_.information.told = equations_.M0;
+    equations_.information.told = equations_.M0.sum();
+    equations_.information.feigned = equations_.feigned.sum();
     if (equations_.information.weight > 0.0)
       equations_.information.lever_m =
           std::max(0.1, std::sqrt(equations_.squared_levers / equations_.information.weight));
@@ -167,22 +191,21 @@ class Registrar {
     const Eigen::Vector2d n_base = R.transpose() * n;
     const Eigen::Vector3d J(n_base.x(), n_base.y(), n.y() * lever.x() - n.x() * lever.y());
     const double t = scan_.points[i].after_s;
-    const Eigen::Matrix3d JJ = w * J * J.transpose();
-    equations_.M0 += JJ;
+    equations_.M0.add(w, J);
     equations_.g0 += w * residual_m * J;
     if (t > 0.0) {
-      equations_.M1 += t * JJ;
-      equations_.M2 += t * t * JJ;
+      equations_.M1.add(t * w, J);
+      equations_.M2.add(t * t * w, J);
       equations_.g1 += t * w * residual_m * J;
     }
     // What a wrong normal adds along the wall, where J would be (tangent, tangent x lever).
     const Eigen::Vector2d tangent_base(-n_base.y(), n_base.x());
     const Eigen::Vector3d F(tangent_base.x(), tangent_base.y(), n.dot(lever));
-    equations_.information.feigned += w * line.normal_variance_rad2 * F * F.transpose();
+    equations_.feigned.add(w * line.normal_variance_rad2, F);
     equations_.information.weight += w;
     equations_.squared_levers += w * lever.squaredNorm();
     equations_.keyframes += line.keyframes;
-    equations_.normalised.push_back(std::sqrt(squared / variance_m2));
+    equations_.squares.push_back(squared / variance_m2);
   }
 
   /// Columns of the Jacobian of d and c: the motion of the base is R^T d, and until a beam's time t it
@@ -191,10 +214,10 @@ class Registrar {
     const Eigen::Matrix3d D = inBase(shift);
     const Eigen::Matrix3d C = directions.projection * Eigen::Matrix3d(gain_.asDiagonal());
     Matrix6d H;
-    H.topLeftCorner<3, 3>() = D.transpose() * equations_.M0 * D;
-    H.topRightCorner<3, 3>() = D.transpose() * equations_.M1 * C;
+    H.topLeftCorner<3, 3>() = D.transpose() * equations_.M0.sum() * D;
+    H.topRightCorner<3, 3>() = D.transpose() * equations_.M1.sum() * C;
     H.bottomLeftCorner<3, 3>() = H.topRightCorner<3, 3>().transpose();
-    H.bottomRightCorner<3, 3>() = C.transpose() * equations_.M2 * C;
+    H.bottomRightCorner<3, 3>() = C.transpose() * equations_.M2.sum() * C;
     return H;
   }
 
@@ -227,17 +250,16 @@ class Registrar {
     constexpr double kMedianSigmas = 0.6745;
     constexpr double kLeastScale = 0.3;
     constexpr double kMostScale = 1.5;  // of points that are counted as lying on the map
-    std::vector<double> magnitudes = equations_.normalised;
-    std::size_t inliers = 0;
-    if (!magnitudes.empty())
-      result.residual_scale = std::max(kLeastScale, upperMedian(magnitudes) / kMedianSigmas);
-    for (const double r : equations_.normalised)
-      inliers += r < kLossSigmas * std::clamp(result.residual_scale, 1.0, kMostScale) ? 1 : 0;
+    std::vector<double>& squares = equations_.squares;
+    if (!squares.empty())
+      result.residual_scale = std::max(kLeastScale, std::sqrt(upperMedian(squares)) / kMedianSigmas);
+    const double most = kLossSigmas * std::clamp(result.residual_scale, 1.0, kMostScale);
+    const auto inliers =
+        std::count_if(squares.begin(), squares.end(), [most](double square) { return square < most * most; });
     if (!points_.empty())
       result.inlier_share = static_cast<double>(inliers) / static_cast<double>(points_.size());
-    if (!equations_.normalised.empty())
-      result.keyframes =
-          std::max(1.0, equations_.keyframes / static_cast<double>(equations_.normalised.size()));
+    if (!squares.empty())
+      result.keyframes = std::max(1.0, equations_.keyframes / static_cast<double>(squares.size()));
     const double variance_scale = result.residual_scale * result.residual_scale;
     const Matrix6d H = information(result.shift, result.directions) / variance_scale;
     const Told told(result.directions, inBase(result.shift), sweep_.scaled());

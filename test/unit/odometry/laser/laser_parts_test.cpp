@@ -76,18 +76,25 @@ TEST(LineMap, aCornerIsNoWall) {
   EXPECT_NE(map.lineAt({0.6, 0.01}, 0), nullptr);
 }
 
-TEST(LineMap, holdsNoMoreOfALongWayThanOfAShortOne) {
+/// Cells in memory, at most, while a way of so many scans was driven.
+std::size_t mostCellsOfAWay(int scans) {
   LineMap map(0.1, 3);
   std::size_t most = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < scans; ++i) {
     std::vector<Eigen::Vector2d> walls;
     for (int k = 0; k < 100; ++k) walls.emplace_back(3.0 * i + 0.04 * k, k % 2 == 0 ? 1.0 : -1.0);
     map.add(walls);
     for (int k = 0; k < 100; ++k) map.lineAt({3.0 * i + 0.04 * k, 0.01 * k}, 0);  // in the open, most of them
     most = std::max(most, map.cells());
+    EXPECT_NE(map.lineAt({3.0 * i + 2.0, 1.0}, 0), nullptr);
   }
-  EXPECT_LT(most, 10000u);
-  EXPECT_NE(map.lineAt({3.0 * 299 + 2.0, 1.0}, 0), nullptr);
+  return most;
+}
+
+TEST(LineMap, holdsNoMoreOfALongWayThanOfAShortOne) {
+  const std::size_t of_short_way = mostCellsOfAWay(50);
+  EXPECT_LT(of_short_way, 12000u);
+  EXPECT_LT(mostCellsOfAWay(500), of_short_way + of_short_way / 2);
 }
 
 TEST(MotionInputs, aWrongStampSilencesWheelsAndGyroscopeForAMomentOnly) {
@@ -139,6 +146,55 @@ TEST(ToldDirections, whatNormalsFeignIsNotTold) {
   EXPECT_EQ(toldDirections(information, 0.01).untold.size(), 1u);
 }
 
+TEST(CellGrid, keepsCellsOfAllQuadrantsApartAndForgetsEmptyTiles) {
+  CellGrid<int> grid;
+  for (int ix = -20; ix <= 20; ++ix)
+    for (int iy = -20; iy <= 20; ++iy) grid.at(ix, iy) = 100 * ix + iy;
+  for (int ix = -20; ix <= 20; ++ix)
+    for (int iy = -20; iy <= 20; ++iy) {
+      ASSERT_NE(grid.find(ix, iy), nullptr);
+      ASSERT_EQ(*grid.find(ix, iy), 100 * ix + iy);
+    }
+  EXPECT_EQ(grid.find(20, 30), nullptr);
+  EXPECT_EQ(grid.cells(), 36u * 64u) << "tiles from -24 to 23";
+  grid.forget([](int cell) { return cell != 1212; });
+  EXPECT_EQ(grid.cells(), 64u);
+  EXPECT_EQ(*grid.find(12, 12), 1212);
+  EXPECT_EQ(grid.find(-12, 12), nullptr);
+  grid.clear();
+  EXPECT_EQ(grid.find(12, 12), nullptr);
+}
+
+TEST(SearchRaster, countsPointsInACellAndBesideItAndIsDrawnAnewAfterAChange) {
+  LineMap map(0.1, 5);
+  map.add({{5.05, -2.05}, {40.0, 0.0}});
+  SearchRaster raster;
+  raster.draw(map, {1.0, 1.0});
+  const auto fine = [&raster](double x, double y) {
+    return static_cast<int>(raster.fine()[static_cast<std::size_t>(raster.placeOf({x, y}))]);
+  };
+  const auto coarse = [&raster](double x, double y) {
+    return static_cast<int>(raster.coarse()[static_cast<std::size_t>(raster.placeOf({x, y}))]);
+  };
+  EXPECT_EQ(fine(5.05, -2.05), 2);
+  EXPECT_EQ(fine(5.15, -1.95), 1);
+  EXPECT_EQ(fine(5.25, -2.05), 0);
+  EXPECT_EQ(coarse(5.15, -1.95), 2);
+  EXPECT_EQ(coarse(5.25, -2.25), 1);
+  EXPECT_EQ(coarse(5.35, -2.05), 0);
+  const auto shifted =
+      static_cast<std::size_t>(raster.placeOf({5.35, -2.35}) + SearchRaster::placesOfShift(-3, 3));
+  EXPECT_EQ(raster.fine()[shifted], 2);
+  raster.draw(map, {9.0, 1.0});
+  EXPECT_EQ(fine(5.05, -2.05), 2) << "around another middle";
+  map.add({{9.05, 1.05}});
+  raster.draw(map, {9.0, 1.0});
+  EXPECT_EQ(fine(9.05, 1.05), 2);
+  map.clear();
+  raster.draw(map, {9.0, 1.0});
+  EXPECT_EQ(fine(9.05, 1.05), 0);
+}
+
 TEST(CorrelativeSearch, findsAScanThatIsFarOff) {
   const WalledWorld room = WalledWorld::room(7.0, 5.0);
   TurningLaser laser{room, [](double) { return Eigen::Vector3d::Zero(); }};
@@ -151,7 +207,9 @@ TEST(CorrelativeSearch, findsAScanThatIsFarOff) {
   prior.p_odom = {0.5, -0.3};
   prior.yaw_rad = 0.3;
   const Eigen::Matrix3d vague = Eigen::Vector3d(0.25, 0.25, 0.04).asDiagonal();
-  const std::vector<Eigen::Vector3d> shifts = searchShifts(points, map, prior, vague);
+  SearchRaster raster;
+  raster.draw(map, prior.p_odom);
+  const std::vector<Eigen::Vector3d> shifts = searchShifts(points, raster, prior, vague);
   ASSERT_FALSE(shifts.empty());
   ASSERT_LE(shifts.size(), kSearchResults);
   const Eigen::Vector3d shift = shifts.front();
