@@ -44,10 +44,13 @@ struct ScoredShift {
   Eigen::Vector3d shift() const { return {ix * kSearchStep_m, iy * kSearchStep_m, iyaw * kSearchStep_rad}; }
 };
 
-/// Of equal ones the one that stands first in the order of the search.
 bool isBetter(const ScoredShift& a, const ScoredShift& b) {
-  if (a.score != b.score) return a.score > b.score;
-  return std::tie(a.iyaw, a.ix, a.iy) < std::tie(b.iyaw, b.ix, b.iy);
+  return a.score > b.score;
+}
+
+/// Of equal ones the one that stands first in the order of the search.
+bool isBetterOrFirst(const ScoredShift& a, const ScoredShift& b) {
+  return a.score != b.score ? isBetter(a, b) : std::tie(a.iyaw, a.ix, a.iy) < std::tie(b.iyaw, b.ix, b.iy);
 }
 
 class ShiftSearch {
@@ -74,7 +77,7 @@ class ShiftSearch {
       for (int dx = -1; dx <= 1; ++dx)
         for (int dy = -1; dy <= 1; ++dy)
           shifts.push_back(scored({0.0, block.ix + dx, block.iy + dy, block.iyaw}, raster_.fine()));
-    std::stable_sort(shifts.begin(), shifts.end(), isBetter);
+    std::stable_sort(shifts.begin(), shifts.end(), isBetter);  // equal ones: that of the better block
     std::vector<Eigen::Vector3d> chosen;
     for (const ScoredShift& candidate : shifts) {
       const Eigen::Vector3d shift = candidate.shift();
@@ -109,7 +112,7 @@ class ShiftSearch {
         for (int iy = -ny_; iy <= ny_ + 1; iy += kCoarse)
           blocks.push_back(scored({0.0, ix, iy, k}, raster_.coarse()));
     const auto end = blocks.begin() + static_cast<std::ptrdiff_t>(std::min(kMostCoarse, blocks.size()));
-    std::partial_sort(blocks.begin(), end, blocks.end(), isBetter);
+    std::partial_sort(blocks.begin(), end, blocks.end(), isBetterOrFirst);
     blocks.erase(end, blocks.end());
     return blocks;
   }
