@@ -32,34 +32,11 @@ PoseUncertainty uncertaintyOf(const Matrix6d& covariance) {
   return {0.5 * (covariance(0, 0) + covariance(1, 1)), covariance(2, 2)};
 }
 
-/// Sum of w v v^T, by its lower triangle.
-class OuterProducts {
- public:
-  void add(double w, const Eigen::Vector3d& v) {
-    const double x = w * v.x(), y = w * v.y();
-    xx_ += x * v.x();
-    yx_ += x * v.y();
-    zx_ += x * v.z();
-    yy_ += y * v.y();
-    zy_ += y * v.z();
-    zz_ += w * v.z() * v.z();
-  }
-  Eigen::Matrix3d sum() const {
-    Eigen::Matrix3d result;
-    result << xx_, yx_, zx_, yx_, yy_, zy_, zx_, zy_, zz_;
-    return result;
-  }
-
- private:
-  double xx_ = 0.0, yx_ = 0.0, zx_ = 0.0, yy_ = 0.0, zy_ = 0.0, zz_ = 0.0;
-};
-
 /// The normal equations of one linearisation, for a motion (forward, left, rotation) of the base.
 struct NormalEquations {
-  OuterProducts M0;       ///< sum of J^T W J
-  OuterProducts M1;       ///< the same times the beam's time
-  OuterProducts M2;       ///< and times its square
-  OuterProducts feigned;  ///< ScanInformation::feigned
+  Eigen::Matrix3d M0 = Eigen::Matrix3d::Zero();  ///< sum of J^T W J
+  Eigen::Matrix3d M1 = Eigen::Matrix3d::Zero();  ///< the same times the beam's time
+  Eigen::Matrix3d M2 = Eigen::Matrix3d::Zero();  ///< and times its square
   Eigen::Vector3d g0 = Eigen::Vector3d::Zero();
   Eigen::Vector3d g1 = Eigen::Vector3d::Zero();
   ScanInformation information;
@@ -166,8 +143,7 @@ class Registrar {
       if (line == nullptr) continue;
       addPoint(i, *line, p_map, lever, R, noise_m, pose_m2);
     }
-    equations_.information.told = equations_.M0.sum();
-    equations_.information.feigned = equations_.feigned.sum();
+    equations_.information.told = equations_.M0;
     if (equations_.information.weight > 0.0)
       equations_.information.lever_m =
           std::max(0.1, std::sqrt(equations_.squared_levers / equations_.information.weight));
@@ -191,17 +167,18 @@ class Registrar {
     const Eigen::Vector2d n_base = R.transpose() * n;
     const Eigen::Vector3d J(n_base.x(), n_base.y(), n.y() * lever.x() - n.x() * lever.y());
     const double t = scan_.points[i].after_s;
-    equations_.M0.add(w, J);
+    const Eigen::Matrix3d JJ = w * J * J.transpose();
+    equations_.M0 += JJ;
     equations_.g0 += w * residual_m * J;
     if (t > 0.0) {
-      equations_.M1.add(t * w, J);
-      equations_.M2.add(t * t * w, J);
+      equations_.M1 += t * JJ;
+      equations_.M2 += t * t * JJ;
       equations_.g1 += t * w * residual_m * J;
     }
     // What a wrong normal adds along the wall, where J would be (tangent, tangent x lever).
     const Eigen::Vector2d tangent_base(-n_base.y(), n_base.x());
     const Eigen::Vector3d F(tangent_base.x(), tangent_base.y(), n.dot(lever));
-    equations_.feigned.add(w * line.normal_variance_rad2, F);
+    equations_.information.feigned += w * line.normal_variance_rad2 * F * F.transpose();
     equations_.information.weight += w;
     equations_.squared_levers += w * lever.squaredNorm();
     equations_.keyframes += line.keyframes;
@@ -214,10 +191,10 @@ class Registrar {
     const Eigen::Matrix3d D = inBase(shift);
     const Eigen::Matrix3d C = directions.projection * Eigen::Matrix3d(gain_.asDiagonal());
     Matrix6d H;
-    H.topLeftCorner<3, 3>() = D.transpose() * equations_.M0.sum() * D;
-    H.topRightCorner<3, 3>() = D.transpose() * equations_.M1.sum() * C;
+    H.topLeftCorner<3, 3>() = D.transpose() * equations_.M0 * D;
+    H.topRightCorner<3, 3>() = D.transpose() * equations_.M1 * C;
     H.bottomLeftCorner<3, 3>() = H.topRightCorner<3, 3>().transpose();
-    H.bottomRightCorner<3, 3>() = C.transpose() * equations_.M2.sum() * C;
+    H.bottomRightCorner<3, 3>() = C.transpose() * equations_.M2 * C;
     return H;
   }
 
