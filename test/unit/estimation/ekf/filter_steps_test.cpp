@@ -14,7 +14,7 @@ using namespace error_row;
 
 StateParts allParts() {
   StateParts parts;
-  parts.gyro = parts.accelerometer = parts.wheel_scales = true;
+  parts.gyro = parts.accelerometer = parts.wheel_scales = parts.wheel_asymmetry = true;
   parts.anchors = 1;
   return parts;
 }
@@ -27,7 +27,7 @@ State someState(const StateLayout& layout) {
   state.acceleration << 0.3, 0.1, -0.2;
   state.gyro_bias << 0.01, 0.02, -0.01;
   state.accelerometer_bias << 0.1, -0.1, 0.05;
-  state.wheel_scale << 0.02, -0.07, 0.05;
+  state.wheel_scale << 0.02, -0.07, 0.05, 0.04, -0.03, 0.01;
   state.anchors.assign(1, expMotion((Vector6d() << 0.28, -0.22, 0.11, 0.18, -0.12, 0.65).finished()));
   state.covariance = Eigen::MatrixXd::Identity(layout.rows(), layout.rows()) * 1e-4;
   return state;
