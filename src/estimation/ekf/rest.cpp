@@ -15,7 +15,6 @@ constexpr double kRestSpeed_m_s = 0.005;
 constexpr double kRestTurn_rad_s = 0.005;
 constexpr double kVelocitySigma_m_s = 0.002;
 constexpr double kTurnSigma_rad_s = 0.001;
-constexpr double kToldSigma_m_s = 0.2;
 
 }  // namespace
 
