@@ -24,6 +24,8 @@ struct Channel {
 struct Opinion {
   float sum = 0.0F;
   float variance_sum = 0.0F;
+  /// Variance of what all of its measurements are off by alike: a gyroscope's bias, the scales of wheels.
+  float common_variance = 0.0F;
   float duration_s = 0.0F;  ///< of the motions of an odometry
   int count = 0;
 
@@ -38,6 +40,12 @@ struct Opinions {
 
   std::array<Opinion, 6>& bin(long index) { return bins[static_cast<std::size_t>(index % kBins)]; }
   Opinion of(std::size_t field) const;
+};
+
+/// Of one field of a channel, while it contradicts another one about it and nobody knows who is right.
+struct Doubt {
+  double factor = 1.0;  ///< of its variance
+  double until_s = -std::numeric_limits<double>::infinity();
 };
 
 /// What the filter remembers of a channel. Goes back with the state when the history is rewound.
@@ -55,12 +63,11 @@ struct ChannelMemory {
   // How far it is believed.
   double noise_factor = 1.0;      ///< its variances are so much larger than it says
   double aside_until_s = kNever;  ///< outvoted
-  double doubt_factor =
-      1.0;  ///< of its variances while it contradicts another one, and nobody knows who is right
-  double doubt_until_s = kNever;
-  int refused = 0;  ///< by the gate, in succession
+  std::array<Doubt, 6> doubts;    ///< of each field
+  int refused = 0;                ///< by the gate, in succession
   /// The twist that it tells of, smoothed with its sign, so that noise does not look like motion.
   Vector6d smooth_twist = Vector6d::Constant(1.0);
+  bool tells_way = true;  ///< its last one told the speed, by its own covariance
   Opinions opinions;
 };
 

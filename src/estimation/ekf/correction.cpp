@@ -21,7 +21,8 @@ bool weigh(const State& state, Innovation& innovation) {
 bool correct(const StateLayout& layout, const Innovation& innovation, State& state) {
   const Eigen::LLT<FieldMatrix> cholesky(innovation.S);
   if (cholesky.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd K = cholesky.solve(innovation.PHt.transpose()).transpose();
+  Eigen::MatrixXd K = cholesky.solve(innovation.PHt.transpose()).transpose();
+  for (const int row : innovation.unmoved) K.row(row).setZero();
   const Eigen::MatrixXd W = innovation.PHt - 0.5 * K.lazyProduct(innovation.S);
   const Eigen::VectorXd shift = K * innovation.residual;
   const Eigen::MatrixXd half = 0.5 * state.covariance - W.lazyProduct(K.transpose());

@@ -17,6 +17,7 @@ struct Innovation {
   Eigen::MatrixXd H;         ///< columns: the kept rows of the error
   FieldMatrix noise;         ///< covariance
   std::vector<int> fields;   ///< of the measurement, row by row
+  std::vector<int> unmoved;  ///< kept rows that are considered, but not corrected (Schmidt 1966)
   Eigen::MatrixXd PHt;       ///< covariance of state and residual; weigh() fills it, and what follows
   FieldMatrix S;             ///< covariance of the residual
   double nis = 0.0;          ///< normalised innovation squared

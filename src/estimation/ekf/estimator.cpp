@@ -19,10 +19,11 @@ constexpr double kShown_s = 1.0;
 const std::vector<int> kAllFields = {0, 1, 2, 3, 4, 5};
 
 void addOpinion(ChannelMemory& memory, long bin, int field, double residual, double variance,
-                double duration_s) {
+                double common_variance, double duration_s) {
   Opinion opinion;
   opinion.sum = static_cast<float>(residual);
   opinion.variance_sum = static_cast<float>(variance);
+  opinion.common_variance = static_cast<float>(common_variance);
   opinion.duration_s = static_cast<float>(duration_s);
   opinion.count = 1;
   memory.opinions.bin(bin)[static_cast<std::size_t>(field)].add(opinion);
@@ -32,9 +33,31 @@ long binOf(double time_s) {
   return std::lround(std::floor(time_s / Opinions::kBin_s));
 }
 
-double noiseFactor(const ChannelMemory& memory, double time_s) {
-  return time_s < memory.doubt_until_s ? std::max(memory.noise_factor, memory.doubt_factor)
-                                       : memory.noise_factor;
+/// What the standard deviation of each field is multiplied by.
+Vector6d sigmaFactors(const ChannelMemory& memory, double time_s) {
+  Vector6d factors;
+  for (Eigen::Index field = 0; field < 6; ++field) {
+    const Doubt& doubt = memory.doubts[static_cast<std::size_t>(field)];
+    const bool doubted = time_s < doubt.until_s;
+    factors[field] = std::sqrt(doubted ? std::max(memory.noise_factor, doubt.factor) : memory.noise_factor);
+  }
+  return factors;
+}
+
+void multiplyNoise(const Vector6d& sigma_factors, Innovation& innovation) {
+  for (std::size_t i = 0; i < innovation.fields.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    innovation.noise.row(row) *= sigma_factors[innovation.fields[i]];
+    innovation.noise.col(row) *= sigma_factors[innovation.fields[i]];
+  }
+}
+
+/// Variance of what biases and scales make of one row of an innovation.
+double commonVariance(const StateLayout& layout, const State& state, const Innovation& innovation,
+                      Eigen::Index row) {
+  const int first = layout.movingRows(), rows = layout.coreRows() - first;
+  const Eigen::VectorXd by_calibration = innovation.H.row(row).segment(first, rows);
+  return by_calibration.dot(state.covariance.block(first, first, rows, rows) * by_calibration);
 }
 
 /// A motion that is refused may be the right one: the pose may be off by what it would have been moved.
@@ -48,15 +71,23 @@ void addDoubt(const StateLayout& layout, const Innovation& innovation, State& st
 
 /// What an odometry says of velocities beyond what the filter expects.
 void addOpinionOfMotion(const Measurement& measurement, const OdometryMotion& motion,
-                        const Eigen::Isometry3d& corrected, const EstimatorMemory& memory,
-                        ChannelMemory& channel) {
+                        const Eigen::Isometry3d& corrected, const WheelScales& scale_variances,
+                        const EstimatorMemory& memory, ChannelMemory& channel) {
   if (motion.duration_s > Opinions::kBins * Opinions::kBin_s || motion.duration_s <= 0.0) return;
   const Vector6d difference =
       logMotion(corrected) - logMotion(channel.T_start_reckoned.inverse() * memory.T_start_reckoned);
+  const Vector6d told = logMotion(motion.motion);
+  const double per_s = 1.0 / motion.duration_s;
   for (const int field : measurement.fields) {
-    const double per_s = 1.0 / motion.duration_s;
+    double common_variance = 0.0;
+    for (std::size_t k = 0; k < kScalePlaces.size(); ++k) {
+      if (kPlanarFields[static_cast<std::size_t>(kScalePlaces[k].axis)] == field)
+        common_variance +=
+            scale_variances[static_cast<Eigen::Index>(k)] *
+            std::pow(told[kPlanarFields[static_cast<std::size_t>(kScalePlaces[k].of)]] * per_s, 2);
+    }
     addOpinion(channel, memory.window, field, difference[field] * per_s,
-               motion.covariance(field, field) * per_s * per_s, motion.duration_s);
+               motion.covariance(field, field) * per_s * per_s, common_variance, motion.duration_s);
   }
 }
 
@@ -89,7 +120,7 @@ EstimatorMemory Estimator::initial(double time_s) const {
   if (params_.initial_variance) variance.head<15>() = *params_.initial_variance;
   variance.segment<3>(kGyroBias).setConstant(std::pow(params_.gyro_bias_sigma_rad_s, 2));
   variance.segment<3>(kAccelerometerBias).setConstant(std::pow(params_.accelerometer_bias_sigma_m_s2, 2));
-  variance.segment<3>(kScale).setConstant(std::pow(params_.wheel_scale_sigma, 2));
+  variance.segment<kWheelScales>(kScale) = params_.scaleVariances();
   state.covariance = Eigen::MatrixXd::Zero(layout_.rows(), layout_.rows());
   for (int i = 0; i < layout_.rows(); ++i)
     state.covariance(i, i) = variance[layout_.kept()[static_cast<std::size_t>(i)]];
@@ -115,6 +146,7 @@ Outcome Estimator::apply(const Measurement& measurement, EstimatorMemory& memory
   const double interval_s = measurement.time_s - channel.newest_s;
   channel.newest_s = measurement.time_s;
   const Vector6d twist = twistOf(measurement, memory.state, channel);
+  channel.tells_way = tellsWay(measurement, channel);
   Outcome outcome =
       measurement.kind == Kind::kMotion ? applyMotion(measurement, memory) : applyDirect(measurement, memory);
   outcome.verdict = std::move(verdict);
@@ -149,7 +181,8 @@ void Estimator::holdUnshownScales(double time_s, EstimatorMemory& memory) const 
     turn_shown = true;
     way_shown = way_shown || channels_[i].kind != Kind::kRate;
   }
-  memory.state.scale_held = {!way_shown, !way_shown, !turn_shown};
+  for (std::size_t i = 0; i < kScalePlaces.size(); ++i)
+    memory.state.scale_held[i] = kScalePlaces[i].axis == 2 ? !turn_shown : !way_shown;
 }
 
 Outcome Estimator::takeIn(const Measurement& measurement, Innovation innovation,
@@ -165,7 +198,7 @@ Outcome Estimator::takeIn(const Measurement& measurement, Innovation innovation,
   };
   if (outcome.fields == 0) return as(Outcome::Kind::kWithoutField);
   if (measurement.time_s < channel.aside_until_s) return as(Outcome::Kind::kAside);
-  innovation.noise *= noiseFactor(channel, measurement.time_s);
+  multiplyNoise(sigmaFactors(channel, measurement.time_s), innovation);
   if (!weigh(memory.state, innovation)) return as(Outcome::Kind::kWithoutField);
   outcome.nis = innovation.nis;
   outcome.information = innovation.information;
@@ -185,7 +218,7 @@ Outcome Estimator::applyDirect(const Measurement& measurement, EstimatorMemory& 
     for (std::size_t i = 0; i < innovation.fields.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       addOpinion(memory.channels[index], memory.window, innovation.fields[i], innovation.residual[row],
-                 innovation.noise(row, row), 0.0);
+                 innovation.noise(row, row), commonVariance(layout_, memory.state, innovation, row), 0.0);
     }
   }
   return takeIn(measurement, std::move(innovation), memory);
@@ -205,8 +238,12 @@ Outcome Estimator::applyMotion(const Measurement& measurement, EstimatorMemory& 
   const OdometryMotion motion = motionSince(remembered, measurement);
   const Eigen::Isometry3d corrected =
       channel.wheels ? scaled(motion.motion, memory.state.wheel_scale) : motion.motion;
-  addOpinionOfMotion(measurement, motion, corrected, memory, remembered);
-  moveAnchor(layout_, anchor, motion.motion, noiseFactor(remembered, measurement.time_s) * motion.covariance,
+  WheelScales scale_variances = WheelScales::Zero();
+  if (channel.wheels)
+    scale_variances = layout_.covarianceOf(memory.state, error_row::kScale, kWheelScales).diagonal();
+  addOpinionOfMotion(measurement, motion, corrected, scale_variances, memory, remembered);
+  const Vector6d factors = sigmaFactors(remembered, measurement.time_s);
+  moveAnchor(layout_, anchor, motion.motion, factors.asDiagonal() * motion.covariance * factors.asDiagonal(),
              channel.wheels, memory.state);
   Vector6d reading;
   reading << Eigen::Vector3d::Constant(std::pow(channel.reading_sigma_m, 2)),

@@ -30,6 +30,10 @@ void FilterParams::describe(ParameterVisitor& visitor) {
   visitor.real("accelerometer_bias_sigma", accelerometer_bias_sigma_m_s2, {1e-6, 5.0}, "m/s^2",
                "of an accelerometer's bias at the start");
   visitor.real("wheel_scale_sigma", wheel_scale_sigma, {1e-6, 0.5}, "", "of the wheels' scales at the start");
+  visitor.real("wheel_turn_per_way_sigma", wheel_turn_per_way_sigma_rad_m, {1e-6, 1.0}, "rad/m",
+               "of the turn that the wheels do not show, as wheels of unequal radii make it, at the start");
+  visitor.real("wheel_drift_sigma", wheel_drift_sigma, {1e-6, 0.5}, "",
+               "of the way to the left for each metre ahead that the wheels do not show, at the start");
   visitor.real("acceleration_noise", acceleration_noise_m_s2, {1e-4, 100.0}, "m/s^2",
                "how much a velocity may change within a second by itself");
   visitor.real("turn_acceleration_noise", turn_acceleration_noise_rad_s2, {1e-4, 100.0}, "rad/s^2",
@@ -59,7 +63,7 @@ ProcessNoise FilterParams::noise() const {
   noise.acceleration = squared(jerk_noise_m_s3);
   noise.gyro_bias = squared(gyro_bias_walk_rad_s2);
   noise.accelerometer_bias = squared(accelerometer_bias_walk_m_s3);
-  noise.wheel_scale = squared(wheel_scale_walk);
+  noise.wheel_scale.setConstant(wheel_scale_walk * wheel_scale_walk);
   if (!process_noise) return noise;
   noise.position = process_noise->segment<3>(0);
   noise.rotation = process_noise->segment<3>(3);
@@ -68,6 +72,17 @@ ProcessNoise FilterParams::noise() const {
   noise.rate = noise.rate.cwiseMax(process_noise->segment<3>(9));
   noise.acceleration = noise.acceleration.cwiseMax(process_noise->segment<3>(12));
   return noise;
+}
+
+WheelScales FilterParams::scaleVariances() const {
+  WheelScales sigmas;
+  for (std::size_t i = 0; i < kScalePlaces.size(); ++i) {
+    const ScalePlace place = kScalePlaces[i];
+    sigmas[static_cast<Eigen::Index>(i)] = place.axis == place.of ? wheel_scale_sigma
+                                           : place.axis == 2      ? wheel_turn_per_way_sigma_rad_m
+                                                                  : wheel_drift_sigma;
+  }
+  return sigmas.cwiseAbs2();
 }
 
 }  // namespace stereo_nav::estimation

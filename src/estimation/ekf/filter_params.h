@@ -18,6 +18,8 @@ struct FilterParams {
   double gyro_bias_sigma_rad_s = 0.01;
   double accelerometer_bias_sigma_m_s2 = 0.3;
   double wheel_scale_sigma = 0.1;
+  double wheel_turn_per_way_sigma_rad_m = 0.05;
+  double wheel_drift_sigma = 0.01;
   double acceleration_noise_m_s2 = 0.7;
   double turn_acceleration_noise_rad_s2 = 1.0;
   double jerk_noise_m_s3 = 10.0;
@@ -33,6 +35,8 @@ struct FilterParams {
 
   void describe(ParameterVisitor& visitor);
   ProcessNoise noise() const;
+  /// Variances of the wheels' scales at the start.
+  WheelScales scaleVariances() const;
 };
 
 }  // namespace stereo_nav::estimation

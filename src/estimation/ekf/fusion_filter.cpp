@@ -142,12 +142,13 @@ FusedEstimate FusionFilter::estimate(double time_s) const {
       turned(state->T_world_base.linear(), layout().covarianceOf(*state, error_row::kPosition, 6));
   estimate.twist << state->velocity, state->rate;
   estimate.twist_covariance = layout().covarianceOf(*state, error_row::kVelocity, 6);
-  const Eigen::Vector3d scale_variances = layout().covarianceOf(*state, error_row::kScale, 3).diagonal();
-  const Eigen::Vector3d by_scale = velocityByScale(*state);
-  const int fields[3] = {0, 1, 5};
-  for (int axis = 0; axis < 3; ++axis)
-    estimate.twist_covariance(fields[axis], fields[axis]) +=
-        std::pow(by_scale[axis], 2) * scale_variances[axis];
+  const WheelScales scale_variances =
+      layout().covarianceOf(*state, error_row::kScale, kWheelScales).diagonal();
+  const WheelScales by_scale = velocityByScale(*state);
+  for (int i = 0; i < kWheelScales; ++i) {
+    const int field = kPlanarFields[static_cast<std::size_t>(kScalePlaces[static_cast<std::size_t>(i)].axis)];
+    estimate.twist_covariance(field, field) += std::pow(by_scale[i], 2) * scale_variances[i];
+  }
   estimate.acceleration = state->acceleration;
   return estimate;
 }

@@ -26,7 +26,7 @@ struct View {
 
 View viewOf(int index, const Channel& channel, const Opinion& opinion, std::size_t field) {
   View view{index, static_cast<double>(opinion.sum) / opinion.count,
-            opinion.variance_sum / std::pow(opinion.count, 2)};
+            opinion.variance_sum / std::pow(opinion.count, 2) + opinion.common_variance};
   if (opinion.duration_s <= 0.0F) return view;
   // Noise of single poses cancels between neighbouring motions: those of the first and the last one count.
   const double reading = field < 3 ? channel.reading_sigma_m : channel.reading_sigma_rad;
@@ -51,6 +51,7 @@ int outvoted(const std::vector<int>& speakers, const std::vector<Contradiction>&
 void Opinion::add(const Opinion& other) {
   sum += other.sum;
   variance_sum += other.variance_sum;
+  common_variance = std::max(common_variance, other.common_variance);
   duration_s += other.duration_s;
   count += other.count;
 }
@@ -115,12 +116,13 @@ bool heed(const Verdict& verdict, double now_s, double until_s, std::vector<Chan
   }
   for (const Contradiction& contradiction : verdict.contradictions) {
     for (const int one : {contradiction.one, contradiction.other}) {
-      ChannelMemory& memory = memories[static_cast<std::size_t>(one)];
-      const bool doubted = memory.doubt_until_s >= now_s;
+      Doubt& doubt =
+          memories[static_cast<std::size_t>(one)].doubts[static_cast<std::size_t>(contradiction.field)];
+      const bool doubted = doubt.until_s >= now_s;
       news = news || !doubted;
-      const double doubt = std::min(contradiction.sigmas * contradiction.sigmas, kMostNoise);
-      memory.doubt_factor = std::max(doubted ? memory.doubt_factor : 1.0, doubt);
-      memory.doubt_until_s = std::max(memory.doubt_until_s, until_s);
+      const double factor = std::min(contradiction.sigmas * contradiction.sigmas, kMostNoise);
+      doubt.factor = std::max(doubted ? doubt.factor : 1.0, factor);
+      doubt.until_s = std::max(doubt.until_s, until_s);
     }
   }
   return news;

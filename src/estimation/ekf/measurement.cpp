@@ -73,6 +73,8 @@ class FieldCheck {
     for (const int field : measurement_.fields) {
       if (usable(field)) good.push_back(field);
     }
+    if (good.empty() && unknown_ > 0 && unknown_ == measurement_.fields.size())
+      say("lost", "says of all that it measures that it does not know it: it is left out until it does");
     measurement_.fields = good;
     if (!good.empty() && !positive(measurement_)) {
       const Vector6d variances = measurement_.covariance.diagonal();
@@ -95,6 +97,7 @@ class FieldCheck {
     }
     double& variance = measurement_.covariance(field, field);
     if (variance >= kUnknownVariance || variance <= -1.0) {
+      ++unknown_;
       if (!(std::abs(variance) < 1e12))
         say(std::string(name) + " unknown",
             fmt::format("the variance of {} is {:g}: the field counts as unknown", name, variance));
@@ -124,6 +127,7 @@ class FieldCheck {
   const DefaultSigmas& sigmas_;
   Measurement& measurement_;
   std::vector<FieldFinding> findings_;
+  std::size_t unknown_ = 0;  ///< fields that are said to be unknown
 };
 
 }  // namespace

@@ -40,19 +40,30 @@ void observePose(const State& state, const Measurement& measurement, Whole& whol
   whole.H.block<3, 3>(3, kRotation) = rpyJacobian(estimated);
 }
 
+/// z = (I + A)^-1 v; a unit of the scale in row i and column j changes it by minus column i of the inverse
+/// times z_j.
+void observeWheels(const State& state, Whole& whole) {
+  const Eigen::Matrix3d inverse = matrixOf(state.wheel_scale).inverse();
+  const Eigen::Vector3d expected =
+      inverse * Eigen::Vector3d(state.velocity.x(), state.velocity.y(), state.rate.z());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int row = kPlanarFields[i];
+    const auto axis = static_cast<Eigen::Index>(i);
+    whole.residual[row] = expected[axis];
+    for (std::size_t j = 0; j < 3; ++j)
+      whole.H(row, kVelocity + kPlanarFields[j]) = inverse(axis, static_cast<Eigen::Index>(j));
+    for (std::size_t k = 0; k < kScalePlaces.size(); ++k) {
+      if (!state.scale_held[k])
+        whole.H(row, kScale + static_cast<int>(k)) =
+            -inverse(axis, kScalePlaces[k].axis) * expected[kScalePlaces[k].of];
+    }
+  }
+}
+
 void observeTwist(const State& state, const Measurement& measurement, bool wheels, Whole& whole) {
   whole.residual << state.velocity, state.rate;
   whole.H.block<6, 6>(0, kVelocity).setIdentity();
-  if (wheels) {
-    const int rows[3] = {0, 1, 5};
-    for (int i = 0; i < 3; ++i) {
-      const double factor = 1.0 / (1.0 + state.wheel_scale[i]);
-      whole.residual[rows[i]] *= factor;
-      whole.H.row(rows[i]) *= factor;
-      if (!state.scale_held[static_cast<std::size_t>(i)])
-        whole.H(rows[i], kScale + i) = -factor * whole.residual[rows[i]];
-    }
-  }
+  if (wheels) observeWheels(state, whole);
   whole.residual = (measurement.value - whole.residual).eval();
 }
 
@@ -153,11 +164,11 @@ Innovation observeAnchor(const StateLayout& layout, const State& state, int anch
   return picked(layout, whole, variances.asDiagonal(), kept);
 }
 
-Eigen::Isometry3d scaled(const Eigen::Isometry3d& motion, const Eigen::Vector3d& wheel_scale) {
+Eigen::Isometry3d scaled(const Eigen::Isometry3d& motion, const WheelScales& wheel_scale) {
   Vector6d twist = logMotion(motion);
-  twist[0] *= 1.0 + wheel_scale[0];
-  twist[1] *= 1.0 + wheel_scale[1];
-  twist[5] *= 1.0 + wheel_scale[2];
+  const Eigen::Vector3d planar = matrixOf(wheel_scale) * Eigen::Vector3d(twist[0], twist[1], twist[5]);
+  twist.head<2>() = planar.head<2>();
+  twist[5] = planar.z();
   return expMotion(twist);
 }
 
@@ -177,9 +188,11 @@ void moveAnchor(const StateLayout& layout, int anchor, const Eigen::Isometry3d& 
   for (Eigen::Index i = 0; i < n; ++i) {
     const int field = rows[static_cast<std::size_t>(i)];
     for (const int other : rows) L(i, layout.at(first + other)) = carried(field, other);
-    const int scale = field < 2 ? field : field == 5 ? 2 : -1;
-    if (wheels && scale >= 0 && layout.at(kScale + scale) >= 0)
-      L(i, layout.at(kScale + scale)) = twist[field];
+    for (std::size_t k = 0; wheels && k < kScalePlaces.size(); ++k) {
+      const int column = layout.at(kScale + static_cast<int>(k));
+      if (column >= 0 && kPlanarFields[static_cast<std::size_t>(kScalePlaces[k].axis)] == field)
+        L(i, column) = twist[kPlanarFields[static_cast<std::size_t>(kScalePlaces[k].of)]];
+    }
   }
   const Eigen::MatrixXd across = L * state.covariance;
   const Eigen::MatrixXd own = across * L.transpose();

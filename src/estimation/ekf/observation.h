@@ -9,7 +9,7 @@
 namespace stereo_nav::estimation {
 
 /// The measurement of a pose, twist, rate or acceleration against the state, of the fields that the layout
-/// keeps; no rows where none of them is. `wheels`: the twist is that of wheels, z = v / (1 + scale).
+/// keeps; no rows where none of them is. `wheels`: the twist is that of wheels, z = (I + A)^-1 v.
 Innovation observe(const StateLayout& layout, const State& state, const Measurement& measurement, bool wheels,
                    double gravity_m_s2);
 
@@ -24,6 +24,6 @@ void moveAnchor(const StateLayout& layout, int anchor, const Eigen::Isometry3d& 
                 const Matrix6d& covariance, bool wheels, State& state);
 
 /// A motion of wheels as their scales correct it.
-Eigen::Isometry3d scaled(const Eigen::Isometry3d& motion, const Eigen::Vector3d& wheel_scale);
+Eigen::Isometry3d scaled(const Eigen::Isometry3d& motion, const WheelScales& wheel_scale);
 
 }  // namespace stereo_nav::estimation

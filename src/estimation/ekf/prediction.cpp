@@ -96,12 +96,13 @@ void step(const StateLayout& layout, const ProcessNoise& noise, double step_s, S
 
 }  // namespace
 
-Eigen::Vector3d velocityByScale(const State& state) {
+WheelScales velocityByScale(const State& state) {
   const Eigen::Vector3d twist(state.velocity.x(), state.velocity.y(), state.rate.z());
-  Eigen::Vector3d by_scale = Eigen::Vector3d::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (state.scale_held[static_cast<std::size_t>(axis)])
-      by_scale[axis] = twist[axis] / (1.0 + state.wheel_scale[axis]);
+  const Eigen::Vector3d of_wheels = matrixOf(state.wheel_scale).inverse() * twist;
+  WheelScales by_scale = WheelScales::Zero();
+  for (int i = 0; i < kWheelScales; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    if (state.scale_held[index]) by_scale[i] = of_wheels[kScalePlaces[index].of];
   }
   return by_scale;
 }
@@ -119,8 +120,9 @@ Transition transitionOf(const State& state, double step_s, double acceleration_d
   F.block<3, 3>(kVelocity, kAcceleration) = decay.velocity_s * Eigen::Matrix3d::Identity();
   F.block<3, 3>(kAcceleration, kAcceleration) = decay.left * Eigen::Matrix3d::Identity();
   const int moved[3] = {kPosition, kPosition + 1, kRotation + 2};
-  const Eigen::Vector3d by_scale = velocityByScale(state);
-  for (int axis = 0; axis < 3; ++axis) F(moved[axis], kScale + axis) = step_s * by_scale[axis];
+  const WheelScales by_scale = velocityByScale(state);
+  for (int i = 0; i < kWheelScales; ++i)
+    F(moved[kScalePlaces[static_cast<std::size_t>(i)].axis], kScale + i) = step_s * by_scale[i];
   return F;
 }
 

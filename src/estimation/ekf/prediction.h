@@ -13,13 +13,13 @@ struct ProcessNoise {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Constant(1.0);         ///< (m/s^2)^2/s
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Constant(1e-9);           ///< (rad/s)^2/s
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Constant(1e-6);  ///< (m/s^2)^2/s
-  Eigen::Vector3d wheel_scale = Eigen::Vector3d::Constant(1e-7);         ///< 1/s
+  WheelScales wheel_scale = WheelScales::Constant(1e-7);                 ///< 1/s
   double acceleration_decay_s = 1.0;  ///< an acceleration that nothing measures dies away in this time
 };
 
-/// What a unit error of each held wheel scale (forward, left, turning) is off by as a velocity; zero for
-/// those that are not held. m/s, m/s, rad/s.
-Eigen::Vector3d velocityByScale(const State& state);
+/// What a unit error of each held wheel scale is off by as a velocity along its axis; zero for those that are
+/// not held. m/s or rad/s.
+WheelScales velocityByScale(const State& state);
 
 /// Rows: those of the error that change by themselves. Columns: those that are no anchor's.
 using Transition = Eigen::Matrix<double, error_row::kGyroBias, error_row::kAnchors>;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/ekf/odometry_motion.h"
+
 namespace stereo_nav::estimation {
 namespace {
 
@@ -34,6 +36,20 @@ Vector6d twistOf(const Measurement& measurement, const State& state, const Chann
   return twist;
 }
 
+bool tellsWay(const Measurement& measurement, const ChannelMemory& memory) {
+  if (measurement.kind != Kind::kTwist && measurement.kind != Kind::kMotion) return false;
+  Matrix6d covariance = measurement.covariance;
+  if (measurement.kind == Kind::kMotion) {
+    if (!memory.anchored || measurement.time_s <= memory.anchored_s) return false;
+    const OdometryMotion motion = motionSince(memory, measurement);
+    covariance = motion.covariance / (motion.duration_s * motion.duration_s);
+  }
+  for (const int field : measurement.fields) {
+    if (field < 3 && covariance(field, field) > kToldSigma_m_s * kToldSigma_m_s) return false;
+  }
+  return true;
+}
+
 void smoothTwist(const Vector6d& twist, double interval_s, ChannelMemory& memory) {
   const double share = 1.0 - std::exp(-std::min(interval_s, kHeard_s) / kSmoothing_s);
   memory.smooth_twist += share * (twist - memory.smooth_twist);
@@ -46,7 +62,7 @@ bool sayRest(const std::vector<Channel>& channels, const std::vector<ChannelMemo
     if (!tellsTwist(channels[i].kind) || time_s - memories[i].newest_s > kHeard_s) continue;
     if (memories[i].smooth_twist.head<3>().norm() > kRestSpeed_m_s) return false;
     if (memories[i].smooth_twist.tail<3>().norm() > kRestTurn_rad_s) return false;
-    if (channels[i].kind != Kind::kRate) way_measured = true;
+    way_measured = way_measured || memories[i].tells_way;
   }
   return way_measured;
 }
@@ -69,6 +85,9 @@ Innovation observeRest(const StateLayout& layout, const State& state) {
     innovation.H(i, layout.at(error_row::kVelocity + field)) = 1.0;
     innovation.noise(i, i) = std::pow(field < 3 ? kVelocitySigma_m_s : kTurnSigma_rad_s, 2);
     innovation.fields.push_back(field);
+  }
+  for (int i = 0; i < kWheelScales; ++i) {
+    if (layout.at(error_row::kScale + i) >= 0) innovation.unmoved.push_back(layout.at(error_row::kScale + i));
   }
   return innovation;
 }

@@ -25,7 +25,7 @@ StateLayout::StateLayout(const StateParts& parts) : anchors_(parts.anchors), pla
   if (parts.gyro) keepAngular(error_row::kGyroBias);
   if (parts.accelerometer) keepLinear(error_row::kAccelerometerBias);
   if (parts.wheel_scales) {
-    for (int axis = 0; axis < 3; ++axis) keep(error_row::kScale + axis);
+    for (int i = 0; i < (parts.wheel_asymmetry ? kWheelScales : 3); ++i) keep(error_row::kScale + i);
   }
   core_rows_ = rows();
   for (int anchor = 0; anchor < parts.anchors; ++anchor) {
@@ -53,7 +53,9 @@ void StateLayout::add(const Eigen::VectorXd& error, State& state) const {
   state.acceleration += part(error_row::kAcceleration);
   state.gyro_bias += part(error_row::kGyroBias);
   state.accelerometer_bias += part(error_row::kAccelerometerBias);
-  state.wheel_scale += part(error_row::kScale);
+  for (int i = 0; i < kWheelScales; ++i) {
+    if (at(error_row::kScale + i) >= 0) state.wheel_scale[i] += error[at(error_row::kScale + i)];
+  }
   for (std::size_t i = 0; i < state.anchors.size(); ++i)
     move(error_row::kAnchors + 6 * static_cast<int>(i), state.anchors[i]);
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "estimation/ekf/wheel_scales.h"
+
 namespace stereo_nav::estimation {
 
 /// First row of each part of the error of a state. A pose's error is that of its translation, then of its
@@ -17,7 +19,7 @@ constexpr int kAcceleration = 12;
 constexpr int kGyroBias = 15;
 constexpr int kAccelerometerBias = 18;
 constexpr int kScale = 21;
-constexpr int kAnchors = 24;  ///< six rows for each anchor from here on
+constexpr int kAnchors = kScale + kWheelScales;  ///< six rows for each anchor from here on
 }  // namespace error_row
 
 /// What the filter estimates. Velocities, rates and accelerations have the axes of base_link.
@@ -29,11 +31,10 @@ struct State {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();        ///< d velocity / dt, m/s^2
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();           ///< rad/s, axes of base_link
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();  ///< m/s^2, axes of base_link
-  /// Forward, left and turning: true motion = (1 + scale) times that of the wheels.
-  Eigen::Vector3d wheel_scale = Eigen::Vector3d::Zero();
+  WheelScales wheel_scale = WheelScales::Zero();
   /// Held scales are not estimated, but considered (Schmidt 1966): the error of the velocity is then the
   /// wheels' own, without the scale's, which enters the pose as it moves.
-  std::array<bool, 3> scale_held{};
+  std::array<bool, kWheelScales> scale_held{};
   /// Cloned poses, one for each odometry: where base_link was at its last message.
   std::vector<Eigen::Isometry3d> anchors;
   Eigen::MatrixXd covariance;  ///< of the rows that StateLayout keeps
@@ -41,10 +42,11 @@ struct State {
 
 /// Which parts of a state are estimated.
 struct StateParts {
-  bool planar = false;         ///< x, y and yaw alone
-  bool gyro = false;           ///< with a gyroscope's bias
-  bool accelerometer = false;  ///< with the acceleration and an accelerometer's bias
-  bool wheel_scales = false;
+  bool planar = false;           ///< x, y and yaw alone
+  bool gyro = false;             ///< with a gyroscope's bias
+  bool accelerometer = false;    ///< with the acceleration and an accelerometer's bias
+  bool wheel_scales = false;     ///< forward, left, turning
+  bool wheel_asymmetry = false;  ///< with the other scales of wheels, by which they turn and drift
   int anchors = 0;
 };
 

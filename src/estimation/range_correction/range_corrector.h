@@ -34,8 +34,10 @@ constexpr std::size_t kRangeOutcomes = 4;
 /// Corrects the pose of the robot in a map by single beams against its walls: a Kalman filter of the pose (x,
 /// y, yaw) and of a constant error of each range finder, which turning the robot tells from its place. Where
 /// a beam may mean several walls, or something that the map does not have, each is weighed by its probability
-/// (Thrun, Burgard and Fox 2005, "Probabilistic Robotics", section 6.3, has the mixture); a wall counts only
-/// with 95 %.
+/// (Thrun, Burgard and Fox 2005, "Probabilistic Robotics", section 6.3, has the mixture). A wall counts only
+/// with 95 %, where it explains each of the readings as the robot moves, and where it lies within 99 % of
+/// what the pose allows. How often a range finder meets what the map does not have is learned, finder by
+/// finder.
 class RangeCorrector {
  public:
   RangeCorrector(const RangeParams& params, std::size_t sensors);
@@ -61,6 +63,7 @@ class RangeCorrector {
   };
   struct Finder {
     std::deque<Past> readings;
+    double foreign_share = 0.0;  ///< of its beams, as seen so far
     bool measured = false;
     Eigen::Isometry2d T_odom_base = Eigen::Isometry2d::Identity();  ///< of its last measurement
   };
@@ -70,7 +73,8 @@ class RangeCorrector {
     double residual_m = 0.0;
     double variance = 0.0;    ///< of the residual, with that of the state
     double noise = 0.0;       ///< without
-    double likelihood = 0.0;  ///< density, 1/m
+    double likelihood = 0.0;  ///< density, 1/m; 0 where the readings do not change as they would before it
+    double range_m = 0.0;     ///< expected, of the newest reading
   };
 
   void moveTo(double time_s, const Eigen::Isometry2d& T_odom_base);
@@ -78,6 +82,7 @@ class RangeCorrector {
   RangeOutcome measure(std::size_t sensor);
   Beam beamOf(const Past& past) const;
   Candidate candidateOf(const SeenWall& wall, std::size_t sensor) const;
+  void judge(Candidate& candidate, const std::vector<double>& residuals_m) const;
   void correct(const Candidate& candidate);
 
   RangeParams params_;

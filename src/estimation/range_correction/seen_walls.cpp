@@ -113,16 +113,16 @@ std::vector<SeenWall> wallsOf(const grid::OccupancyGrid& map, const Beam& beam, 
 
 ExpectedRange expectedRange(const SeenWall& wall, const Beam& beam) {
   double direction_rad = beam.direction_rad;
-  if (beam.nearest) {
-    const double to_normal_rad =
-        wrapRadians(std::atan2(wall.normal.y(), wall.normal.x()) - beam.direction_rad);
-    direction_rad += std::max(-beam.half_width_rad, std::min(beam.half_width_rad, to_normal_rad));
-  }
+  const double to_normal_rad = wrapRadians(std::atan2(wall.normal.y(), wall.normal.x()) - beam.direction_rad);
+  const double to_nearest_rad = std::clamp(to_normal_rad, -beam.half_width_rad, beam.half_width_rad);
+  if (beam.nearest) direction_rad += to_nearest_rad;
   const Eigen::Vector2d direction = unit(direction_rad);
   const double distance_m = wall.offset_m - wall.normal.dot(beam.p_map);
   ExpectedRange expected;
   expected.incidence = wall.normal.dot(direction);
   expected.range_m = distance_m / expected.incidence;
+  if (!beam.nearest)
+    expected.across_m = expected.range_m - distance_m / std::cos(to_normal_rad - to_nearest_rad);
   expected.by_position = -wall.normal / expected.incidence;
   expected.by_direction_m_rad = -expected.range_m * cross(direction, wall.normal) / expected.incidence;
   return expected;

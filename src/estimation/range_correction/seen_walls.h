@@ -32,6 +32,7 @@ std::vector<SeenWall> wallsOf(const grid::OccupancyGrid& map, const Beam& beam, 
 /// Range at which a beam meets a wall, and what it changes by.
 struct ExpectedRange {
   double range_m = 0.0;             ///< below zero: the wall lies behind
+  double across_m = 0.0;            ///< light: how much nearer the nearest point within the width is
   double incidence = 1.0;           ///< cosine of the angle between beam and normal
   Eigen::Vector2d by_position;      ///< d range / d p_map
   double by_direction_m_rad = 0.0;  ///< d range / d direction

@@ -93,6 +93,7 @@ std::vector<Sensed> runLaser(const sim::Simulation& simulation, const std::vecto
     const odometry::LaserOdometryResult result = odometry.process(scan, T_base_laser);
     motions.push_back(
         motionAt(scan.time_s, end_s, inSpace(result.T_odom_base), spatialCovariance(result.pose_covariance)));
+    motions.back().measurement.twist_covariance = spatialCovariance(result.twist_covariance);
   }
   return motions;
 }

@@ -66,6 +66,19 @@ TEST(FusionConsistency, WithWheelsOfUnknownScaleAndGyroscopeAlone) {
   EXPECT_GT(consistency.inside_95, 0.85);
 }
 
+TEST(FusionConsistency, WheelsOfUnequalRadiiBesideALaserWithoutAGyroscope) {
+  SceneOptions options;
+  options.gyro = options.stereo = false;
+  const Consistency consistency = consistencyOf(options, 30, [](SceneOptions& scene) {
+    std::mt19937 random(1000 + scene.seed);
+    scene.wheel_turn_per_way_rad_m = std::normal_distribution<double>(0.0, 0.05)(random);
+  });
+  EXPECT_GT(consistency.mean, 1.5);
+  EXPECT_LT(consistency.mean, 5.0);
+  EXPECT_GT(consistency.inside_95, 0.85);
+  EXPECT_LT(consistency.rmse_m, 0.1);
+}
+
 TEST(FusionConsistency, PositionsFromOutsideKeepTheErrorBounded) {
   SceneOptions options;
   options.gnss = true;

@@ -219,6 +219,7 @@ TEST_F(FusionFault, StereoIsLostAndComesBackElsewhere) {
     return true;
   });
   expectHarmless(result);
+  EXPECT_TRUE(said(result, "stereo: says of all that it measures that it does not know it"));
 }
 
 TEST_F(FusionFault, GyroscopeReversed) {

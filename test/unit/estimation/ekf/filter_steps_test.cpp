@@ -6,6 +6,7 @@
 #include "estimation/ekf/observation.h"
 #include "estimation/ekf/odometry_motion.h"
 #include "estimation/ekf/prediction.h"
+#include "estimation/ekf/rest.h"
 
 namespace stereo_nav::estimation::test {
 namespace {
@@ -14,7 +15,7 @@ using namespace error_row;
 
 StateParts allParts() {
   StateParts parts;
-  parts.gyro = parts.accelerometer = parts.wheel_scales = true;
+  parts.gyro = parts.accelerometer = parts.wheel_scales = parts.wheel_asymmetry = true;
   parts.anchors = 1;
   return parts;
 }
@@ -27,7 +28,7 @@ State someState(const StateLayout& layout) {
   state.acceleration << 0.3, 0.1, -0.2;
   state.gyro_bias << 0.01, 0.02, -0.01;
   state.accelerometer_bias << 0.1, -0.1, 0.05;
-  state.wheel_scale << 0.02, -0.07, 0.05;
+  state.wheel_scale << 0.02, -0.07, 0.05, 0.04, -0.03, 0.01;
   state.anchors.assign(1, expMotion((Vector6d() << 0.28, -0.22, 0.11, 0.18, -0.12, 0.65).finished()));
   state.covariance = Eigen::MatrixXd::Identity(layout.rows(), layout.rows()) * 1e-4;
   return state;
@@ -198,6 +199,53 @@ TEST(OdometryMotion, TheTwistSaysItWhereThePosesCovarianceStays) {
   measurement.covariance = memory.odometry_covariance;
   measurement.twist_covariance = Matrix6d::Identity() * 0.04;
   EXPECT_NEAR(motionSince(memory, measurement).covariance(0, 0), 0.04 * 0.01, 1e-12);
+}
+
+TEST(OdometryMotion, WhatTheSpeedDoesNotTellIsLooserThanThePosesCovarianceGrows) {
+  ChannelMemory memory;
+  memory.anchored_s = 1.0;
+  memory.odometry_covariance = Matrix6d::Identity() * 0.01;
+  Measurement measurement = measurementOf(Measurement::Kind::kMotion, {0, 1, 5});
+  measurement.time_s = 1.1;
+  measurement.pose.setIdentity();
+  measurement.covariance = Matrix6d::Identity() * 0.011;
+  // As in a corridor: 1 m/s along it, 0.01 m/s across.
+  measurement.twist_covariance = Matrix6d::Identity() * 1e-4;
+  (*measurement.twist_covariance)(0, 0) = 1.0;
+  const Matrix6d covariance = motionSince(memory, measurement).covariance;
+  EXPECT_NEAR(covariance(0, 0), 0.001 + 0.01 * 10.0 / 0.1, 1e-9);
+  EXPECT_NEAR(covariance(1, 1), 0.001, 1e-9);
+}
+
+TEST(Rest, TeachesTheWheelsNoScale) {
+  StateParts parts;
+  parts.planar = parts.wheel_scales = true;
+  const StateLayout layout(parts);
+  State state;
+  state.velocity.x() = 0.03;
+  state.covariance = Eigen::MatrixXd::Identity(layout.rows(), layout.rows()) * 1e-2;
+  const int speed = layout.at(kVelocity), scale = layout.at(kScale);
+  state.covariance(speed, scale) = state.covariance(scale, speed) = 5e-3;
+  Innovation innovation = observeRest(layout, state);
+  ASSERT_TRUE(weigh(state, innovation));
+  ASSERT_TRUE(correct(layout, innovation, state));
+  EXPECT_NEAR(state.velocity.x(), 0.0, 1e-4);
+  EXPECT_EQ(state.wheel_scale[0], 0.0);
+  EXPECT_NEAR(state.covariance(scale, scale), 1e-2, 1e-12);
+}
+
+TEST(Rest, IsNotShownByAnOdometryThatSeesNoWay) {
+  ChannelMemory memory;
+  memory.anchored = true;
+  memory.anchored_s = 1.0;
+  memory.odometry_covariance = Matrix6d::Identity() * 1e-4;
+  Measurement measurement = measurementOf(Measurement::Kind::kMotion, {0, 1, 5});
+  measurement.time_s = 1.1;
+  measurement.pose.setIdentity();
+  measurement.covariance = Matrix6d::Identity() * 1.01e-4;
+  EXPECT_TRUE(tellsWay(measurement, memory));
+  measurement.covariance(0, 0) = 0.01;
+  EXPECT_FALSE(tellsWay(measurement, memory));
 }
 
 }  // namespace

@@ -135,7 +135,9 @@ FusionFilter sceneFilter(const SceneOptions& options) {
   }
   channels[channel::kWheels].wheels = true;
   StateParts parts;
-  parts.planar = parts.gyro = parts.wheel_scales = true;
+  parts.planar = parts.wheel_scales = true;
+  parts.gyro = options.gyro;
+  parts.wheel_asymmetry = !options.gyro;
   parts.anchors = channels.size() > 3 ? 2 : channels.size() > 2 ? 1 : 0;
   return FusionFilter(FilterParams(), parts, channels);
 }
@@ -165,8 +167,11 @@ SceneResult runScene(const SceneOptions& options) {
     const double t = step * kStep_s, time_s = kStart_s + t;
     const Eigen::Vector3d twist = trueTwist(t);
     clock_s = t < options.clock_back_at_s ? 0.0 : -10.0;
-    send(gyroOf(time_s, twist[2] + options.gyro_bias_rad_s, random));
-    if (step % 2 == 0) send(wheelsOf(time_s, twist, options.wheel_scale, random));
+    if (options.gyro) send(gyroOf(time_s, twist[2] + options.gyro_bias_rad_s, random));
+    if (step % 2 == 0) {
+      const double unseen_turn = options.wheel_turn_per_way_rad_m * twist[0] / (1.0 + options.wheel_scale[0]);
+      send(wheelsOf(time_s, twist - Eigen::Vector3d(0.0, 0.0, unseen_turn), options.wheel_scale, random));
+    }
     if (options.laser && step % 10 == 0) send(laser.measure(time_s, T_true, random));
     if (options.stereo && step % 10 == 5) send(stereo.measure(time_s, T_true, random));
     if (options.gnss && step % 20 == 7) send(gnssOf(time_s, T_true, random));

@@ -20,9 +20,11 @@ struct SceneOptions {
   double sample_period_s = 0.02;  ///< a multiple of 0.01 s
   bool laser = true;
   bool stereo = true;  ///< a second odometry, beside the laser
-  bool gnss = false;   ///< absolute positions at 5 Hz, sigma 0.3 m
+  bool gyro = true;
+  bool gnss = false;  ///< absolute positions at 5 Hz, sigma 0.3 m
   double gyro_bias_rad_s = 0.0026;
   Eigen::Vector3d wheel_scale{0.02, -0.07, 0.05};
+  double wheel_turn_per_way_rad_m = 0.0;  ///< that the wheels do not show, as those of unequal radii
   double clock_back_at_s =
       std::numeric_limits<double>::infinity();  ///< then the clock of all is set back by 10 s
   Fault fault;                                  ///< asked for each measurement

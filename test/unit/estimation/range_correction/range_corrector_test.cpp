@@ -190,6 +190,34 @@ TEST(RangeCorrector, WhatTheMapDoesNotHaveIsLeftOut) {
   EXPECT_GT(errors.outcomes[static_cast<std::size_t>(RangeOutcome::kForeign)], 1000u);
 }
 
+TEST(RangeCorrector, AFinderWhoseConeMeetsTheFloorMisleadsNobody) {
+  Drive drive;
+  // The one ahead sees nothing beyond 2.5 m: the floor, which moves with the robot.
+  drive.foreign = [](std::size_t sensor, double, double range_m) {
+    return sensor == 0 ? std::min(range_m, 2.5) : range_m;
+  };
+  const Errors errors = runAll(drive, 20);
+  EXPECT_LE(errors.rms_m(), 0.03);
+  EXPECT_LT(errors.nees / errors.count, 5.0);
+  EXPECT_GT(errors.inside_95, 0.85 * errors.count);
+}
+
+TEST(RangeCorrector, AWallThatComesNearerUnlikeTheRobotIsNotMeant) {
+  // At (2, 2) the wall is 5.8 m ahead. The pose is uncertain by 0.5 m, so that 5.5 m may be that wall; but
+  // the reading does not change while the robot drives 0.4 m.
+  const auto used = [](double change_m) {
+    RangeCorrector corrector(RangeParams(), 1);
+    corrector.setMap(hallMap());
+    corrector.setPose(pose(2.0, 2.0, 0.0), Eigen::Vector3d(0.25, 0.01, 1e-6).asDiagonal());
+    RangeOutcome outcome = RangeOutcome::kWaiting;
+    for (int i = 0; i < RangeParams().readings; ++i)
+      outcome = corrector.add(readingOf(0, 0.1 * i, 5.5 - i * change_m), pose(0.1 * i, 0.0, 0.0));
+    return outcome == RangeOutcome::kUsed;
+  };
+  EXPECT_TRUE(used(0.1));
+  EXPECT_FALSE(used(0.0));
+}
+
 TEST(RangeCorrector, AWallThatIsElsewhereIsGated) {
   Drive drive;
   // The map has the upper wall 0.6 m too low.
