@@ -19,7 +19,7 @@ struct FilterParams {
   double accelerometer_bias_sigma_m_s2 = 0.3;
   double wheel_scale_sigma = 0.1;
   double wheel_turn_per_way_sigma_rad_m = 0.05;
-  double wheel_drift_sigma = 0.01;
+  double wheel_drift_sigma = 0.015;
   double acceleration_noise_m_s2 = 0.7;
   double turn_acceleration_noise_rad_s2 = 1.0;
   double jerk_noise_m_s3 = 10.0;

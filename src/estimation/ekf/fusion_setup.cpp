@@ -72,7 +72,7 @@ FusionSetup setUp(const FusionConfig& config) {
   setup.parts.gyro = has(Kind::kRate);
   // Beside a gyroscope the turn that wheels tell counts little, and its bias and a turn that grows with the
   // way are hard to tell apart.
-  setup.parts.wheel_asymmetry = setup.parts.wheel_scales && !setup.parts.gyro;
+  setup.parts.wheel_turns = setup.parts.wheel_scales && !setup.parts.gyro;
   setup.parts.accelerometer = has(Kind::kAcceleration);
   setup.parts.anchors =
       static_cast<int>(std::count_if(setup.channels.begin(), setup.channels.end(),

@@ -25,7 +25,10 @@ StateLayout::StateLayout(const StateParts& parts) : anchors_(parts.anchors), pla
   if (parts.gyro) keepAngular(error_row::kGyroBias);
   if (parts.accelerometer) keepLinear(error_row::kAccelerometerBias);
   if (parts.wheel_scales) {
-    for (int i = 0; i < (parts.wheel_asymmetry ? kWheelScales : 3); ++i) keep(error_row::kScale + i);
+    for (int i = 0; i < kWheelScales; ++i) {
+      if (parts.wheel_turns || !isTurnByWay(kScalePlaces[static_cast<std::size_t>(i)]))
+        keep(error_row::kScale + i);
+    }
   }
   core_rows_ = rows();
   for (int anchor = 0; anchor < parts.anchors; ++anchor) {

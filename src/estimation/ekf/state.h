@@ -42,11 +42,11 @@ struct State {
 
 /// Which parts of a state are estimated.
 struct StateParts {
-  bool planar = false;           ///< x, y and yaw alone
-  bool gyro = false;             ///< with a gyroscope's bias
-  bool accelerometer = false;    ///< with the acceleration and an accelerometer's bias
-  bool wheel_scales = false;     ///< forward, left, turning
-  bool wheel_asymmetry = false;  ///< with the other scales of wheels, by which they turn and drift
+  bool planar = false;         ///< x, y and yaw alone
+  bool gyro = false;           ///< with a gyroscope's bias
+  bool accelerometer = false;  ///< with the acceleration and an accelerometer's bias
+  bool wheel_scales = false;   ///< forward, left, turning, and the drift to the left
+  bool wheel_turns = false;    ///< with the turns that grow with the way
   int anchors = 0;
 };
 

@@ -22,6 +22,11 @@ constexpr std::array<ScalePlace, kWheelScales> kScalePlaces = {
 /// Axes of a planar motion as fields of a twist.
 constexpr std::array<int, 3> kPlanarFields = {0, 1, 5};
 
+/// A turn that grows with the way ahead or to the left.
+constexpr bool isTurnByWay(ScalePlace place) {
+  return place.axis == 2 && place.of != 2;
+}
+
 /// I + A.
 inline Eigen::Matrix3d matrixOf(const WheelScales& scales) {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();

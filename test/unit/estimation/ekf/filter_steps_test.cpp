@@ -15,7 +15,7 @@ using namespace error_row;
 
 StateParts allParts() {
   StateParts parts;
-  parts.gyro = parts.accelerometer = parts.wheel_scales = parts.wheel_asymmetry = true;
+  parts.gyro = parts.accelerometer = parts.wheel_scales = parts.wheel_turns = true;
   parts.anchors = 1;
   return parts;
 }
@@ -213,7 +213,7 @@ TEST(OdometryMotion, WhatTheSpeedDoesNotTellIsLooserThanThePosesCovarianceGrows)
   measurement.twist_covariance = Matrix6d::Identity() * 1e-4;
   (*measurement.twist_covariance)(0, 0) = 1.0;
   const Matrix6d covariance = motionSince(memory, measurement).covariance;
-  EXPECT_NEAR(covariance(0, 0), 0.001 + 0.01 * 10.0 / 0.1, 1e-9);
+  EXPECT_NEAR(covariance(0, 0), 0.001 + 0.01 * 60.0 / 0.1, 1e-9);
   EXPECT_NEAR(covariance(1, 1), 0.001, 1e-9);
 }
 

@@ -137,7 +137,7 @@ FusionFilter sceneFilter(const SceneOptions& options) {
   StateParts parts;
   parts.planar = parts.wheel_scales = true;
   parts.gyro = options.gyro;
-  parts.wheel_asymmetry = !options.gyro;
+  parts.wheel_turns = !options.gyro;
   parts.anchors = channels.size() > 3 ? 2 : channels.size() > 2 ? 1 : 0;
   return FusionFilter(FilterParams(), parts, channels);
 }
