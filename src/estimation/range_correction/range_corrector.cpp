@@ -1,5 +1,6 @@
 #include "estimation/range_correction/range_corrector.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +21,13 @@ constexpr double kAcrossShare = 0.5;
 /// A vector turned by 90 degrees: what it changes by with the yaw.
 Eigen::Vector2d turned(const Eigen::Vector2d& v) {
   return {-v.y(), v.x()};
+}
+
+/// What the error of a pose, x y yaw, becomes by a way: a wrong heading moves it aside.
+Eigen::Matrix3d carryOf(const Eigen::Vector2d& way) {
+  Eigen::Matrix3d carry = Eigen::Matrix3d::Identity();
+  carry.block<2, 1>(0, 2) = turned(way);
+  return carry;
 }
 
 /// 99.9 % of the sums of so many squares of normal numbers (Wilson and Hilferty 1931).
@@ -49,8 +57,9 @@ void RangeCorrector::setPose(const Eigen::Isometry2d& T_map_base, const Eigen::M
   }
 }
 
-RangeOutcome RangeCorrector::add(const RangeReading& reading, const Eigen::Isometry2d& T_odom_base) {
-  moveTo(reading.time_s, T_odom_base);
+RangeOutcome RangeCorrector::add(const RangeReading& reading, const Eigen::Isometry2d& T_odom_base,
+                                 const Eigen::Matrix3d& odom_covariance) {
+  moveTo(reading.time_s, T_odom_base, odom_covariance);
   Finder& finder = finders_[reading.sensor];
   finder.readings.push_back({reading, T_odom_base});
   while (finder.readings.size() > static_cast<std::size_t>(params_.readings) ||
@@ -69,24 +78,41 @@ RangeOutcome RangeCorrector::add(const RangeReading& reading, const Eigen::Isome
   return outcome;
 }
 
-void RangeCorrector::moveTo(double time_s, const Eigen::Isometry2d& T_odom_base) {
+void RangeCorrector::moveTo(double time_s, const Eigen::Isometry2d& T_odom_base,
+                            const Eigen::Matrix3d& odom_covariance) {
   if (moving_) {
     const Eigen::Isometry2d motion = T_odom_base_.inverse() * T_odom_base;
-    const Eigen::Vector2d way = T_map_base_.linear() * motion.translation();
-    T_map_base_ = T_map_base_ * motion;
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(P_.rows(), P_.cols());
-    F.block<2, 1>(0, 2) = turned(way);
+    F.topLeftCorner<3, 3>() = carryOf(T_map_base_.linear() * motion.translation());
     P_ = (F * P_ * F.transpose()).eval();
-    const double way_m = way.norm(), turn_rad = std::abs(yawOf(motion));
-    P_(0, 0) += std::pow(params_.way_noise_m, 2) * way_m;
-    P_(1, 1) += std::pow(params_.way_noise_m, 2) * way_m;
-    P_(2, 2) += std::pow(params_.turn_noise_rad, 2) * (way_m + turn_rad);
+    P_.topLeftCorner<3, 3>() += motionNoise(motion, odom_covariance);
+    T_map_base_ = T_map_base_ * motion;
     const double walked = std::pow(params_.bias_walk_m, 2) * std::abs(time_s - time_s_);
     P_.diagonal().tail(bias_.size()).array() += walked;
   }
   moving_ = true;
   time_s_ = time_s;
   T_odom_base_ = T_odom_base;
+  odom_covariance_ = odom_covariance;
+}
+
+/// By the parameters, and along the directions in which the odometry's covariance grows by more, by that.
+Eigen::Matrix3d RangeCorrector::motionNoise(const Eigen::Isometry2d& motion,
+                                            const Eigen::Matrix3d& odom_covariance) const {
+  const double way_m = motion.translation().norm(), turn_rad = std::abs(yawOf(motion));
+  const double way_variance = std::pow(params_.way_noise_m, 2) * way_m;
+  Eigen::Matrix3d noise =
+      Eigen::Vector3d(way_variance, way_variance, std::pow(params_.turn_noise_rad, 2) * (way_m + turn_rad))
+          .asDiagonal();
+  const Eigen::Matrix3d carry = carryOf(T_odom_base_.linear() * motion.translation());
+  Eigen::Matrix3d R_map_odom = Eigen::Matrix3d::Identity();
+  R_map_odom.topLeftCorner<2, 2>() = T_map_odom().linear();
+  const Eigen::Matrix3d growth =
+      R_map_odom * (odom_covariance - carry * odom_covariance_ * carry.transpose()) * R_map_odom.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> more(growth - noise);
+  noise +=
+      more.eigenvectors() * more.eigenvalues().cwiseMax(0.0).asDiagonal() * more.eigenvectors().transpose();
+  return noise;
 }
 
 bool RangeCorrector::movedOn(const Finder& finder) const {

@@ -45,9 +45,11 @@ class RangeCorrector {
   void setMap(const grid::OccupancyGrid& map) { map_ = map; }
   /// Where the robot is, x y yaw; what is known of the range finders stays.
   void setPose(const Eigen::Isometry2d& T_map_base, const Eigen::Matrix3d& covariance);
-  /// A reading, and where the odometry had the robot then. Ranges must be finite and within the range
-  /// finder's limits.
-  RangeOutcome add(const RangeReading& reading, const Eigen::Isometry2d& T_odom_base);
+  /// A reading, and where the odometry had the robot then, with its covariance (x, y, yaw; axes of the
+  /// odometry's frame) where that is known: what it grows by counts where it is more than the parameters say.
+  /// Ranges must be finite and within the range finder's limits.
+  RangeOutcome add(const RangeReading& reading, const Eigen::Isometry2d& T_odom_base,
+                   const Eigen::Matrix3d& odom_covariance = Eigen::Matrix3d::Zero());
 
   /// At the newest reading.
   const Eigen::Isometry2d& T_map_base() const { return T_map_base_; }
@@ -77,7 +79,8 @@ class RangeCorrector {
     double range_m = 0.0;     ///< expected, of the newest reading
   };
 
-  void moveTo(double time_s, const Eigen::Isometry2d& T_odom_base);
+  void moveTo(double time_s, const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& odom_covariance);
+  Eigen::Matrix3d motionNoise(const Eigen::Isometry2d& motion, const Eigen::Matrix3d& odom_covariance) const;
   bool movedOn(const Finder& finder) const;
   RangeOutcome measure(std::size_t sensor);
   Beam beamOf(const Past& past) const;
@@ -94,6 +97,7 @@ class RangeCorrector {
   bool moving_ = false;
   double time_s_ = 0.0;
   Eigen::Isometry2d T_odom_base_ = Eigen::Isometry2d::Identity();
+  Eigen::Matrix3d odom_covariance_ = Eigen::Matrix3d::Zero();
   std::array<std::size_t, kRangeOutcomes> counts_{};
 };
 

@@ -65,6 +65,7 @@ RangeCorrectionNode::RangeCorrectionNode(ros::NodeHandle handle, ros::NodeHandle
   setInitialPose();
   for (std::size_t sensor = 0; sensor < finders_.size(); ++sensor) subscribe(sensor);
   subscribers_ = {handle_.subscribe("map", 1, &RangeCorrectionNode::handleMap, this),
+                  handle_.subscribe("odom", 10, &RangeCorrectionNode::handleOdometry, this),
                   handle_.subscribe("initialpose", 1, &RangeCorrectionNode::handlePose, this)};
   updater_.setHardwareID("none");
   updater_.add("range correction", this, &RangeCorrectionNode::fillStatus);
@@ -129,6 +130,21 @@ void RangeCorrectionNode::handlePose(const geometry_msgs::PoseWithCovarianceStam
   for (Finder& finder : finders_) judge(finder, RangeOutcome::kUsed);
 }
 
+/// Without a usable covariance the parameters alone say how the pose becomes uncertain.
+void RangeCorrectionNode::handleOdometry(const nav_msgs::Odometry& message) {
+  if (message.header.frame_id != params_.odom_frame || message.child_frame_id != params_.base_frame) {
+    raise(
+        "odometry",
+        fmt::format("the covariances of `odom` are not used: they are of {} in {}, tf is asked for {} in {}; "
+                    "remap `odom` to the odometry that publishes this transform",
+                    message.child_frame_id, message.header.frame_id, params_.base_frame, params_.odom_frame));
+    return;
+  }
+  clear("odometry");
+  const Eigen::Matrix3d covariance = planarCovariance(ros_io::toCovariance(message.pose.covariance));
+  if (covariance.allFinite()) odom_covariance_ = covariance;
+}
+
 void RangeCorrectionNode::handleRange(std::size_t sensor, const sensor_msgs::Range& message) {
   if (!has_map_) return;
   const std::string frame = message.header.frame_id;
@@ -166,7 +182,7 @@ void RangeCorrectionNode::handleRange(std::size_t sensor, const sensor_msgs::Ran
   reading.nearest = message.radiation_type == sensor_msgs::Range::ULTRASOUND;
   reading.range_m = message.range;
   reading.max_range_m = message.max_range;
-  const RangeOutcome outcome = corrector_.add(reading, planarPart(T_odom_base));
+  const RangeOutcome outcome = corrector_.add(reading, planarPart(T_odom_base), odom_covariance_);
   judge(finders_[sensor], outcome);
   if (outcome == RangeOutcome::kUsed) publishPose(message.header.stamp);
   publishTransform(message.header.stamp);

@@ -3,6 +3,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Range.h>
 #include <tf2_ros/buffer.h>
@@ -20,8 +21,9 @@
 
 namespace stereo_nav::nodes {
 
-/// Subscribes map, initialpose and range/NAME; publishes range/pose (in the map), tf map -> odom and
-/// diagnostics. The odometry arrives as tf odom -> base_link, whoever publishes it, and is never touched.
+/// Subscribes map, initialpose, odom and range/NAME; publishes range/pose (in the map), tf map -> odom and
+/// diagnostics. The odometry arrives as tf odom -> base_link, whoever publishes it, and is never touched; its
+/// covariance as the message that goes with it.
 ///
 /// A reading waits for the pose of its stamp. Drop rule: of each range finder at most kWaiting wait; the
 /// oldest gives way and is counted.
@@ -42,6 +44,7 @@ class RangeCorrectionNode {
   void subscribe(std::size_t sensor);
   void handleMap(const nav_msgs::OccupancyGrid& message);
   void handlePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void handleOdometry(const nav_msgs::Odometry& message);
   void handleRange(std::size_t sensor, const sensor_msgs::Range& message);
   void judge(Finder& finder, estimation::RangeOutcome outcome);
   void publishPose(const ros::Time& stamp);
@@ -60,6 +63,7 @@ class RangeCorrectionNode {
   tf2_ros::TransformListener tf_listener_;
   std::vector<Finder> finders_;  ///< after the buffer, which they leave when they end
   estimation::RangeCorrector corrector_;
+  Eigen::Matrix3d odom_covariance_ = Eigen::Matrix3d::Zero();  ///< x, y, yaw, of the newest message
   bool has_map_ = false;
   tf2_ros::TransformBroadcaster broadcaster_;
   ros::Publisher pose_;

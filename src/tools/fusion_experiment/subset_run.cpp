@@ -114,7 +114,7 @@ std::vector<ComparedPose> runSubset(const FusionConfig& all, const Subset& subse
       continue;
     }
     for (; reading != runs.ranges.end() && reading->time_s < time_s + 0.5 * kRangePeriod_s; ++reading)
-      corrector.add(*reading, T_odom_base);
+      corrector.add(*reading, T_odom_base, planarCovariance(estimate.pose_covariance));
     poses.push_back(compare(time_s, T_true, corrector.T_map_odom() * T_odom_base, corrector.covariance()));
   }
   return poses;

@@ -218,6 +218,21 @@ TEST(RangeCorrector, AWallThatComesNearerUnlikeTheRobotIsNotMeant) {
   EXPECT_FALSE(used(0.0));
 }
 
+TEST(RangeCorrector, ThePlaceBecomesAsUncertainAsTheOdometrySays) {
+  // The robot heads along y of the map, its odometry along x.
+  RangeCorrector corrector(RangeParams(), 1);
+  corrector.setMap(hallMap());
+  corrector.setPose(pose(2.0, 2.0, 0.5 * kPi), Eigen::Vector3d(0.01, 0.01, 1e-8).asDiagonal());
+  corrector.add(readingOf(0, 0.0, 3.0), pose(0.0, 0.0, 0.0), Eigen::Vector3d(0.1, 0.1, 0.0).asDiagonal());
+  corrector.add(readingOf(0, 0.1, 2.0), pose(1.0, 0.0, 0.0), Eigen::Vector3d(0.6, 0.1, 0.0).asDiagonal());
+  const double by_parameters = std::pow(RangeParams().way_noise_m, 2);
+  EXPECT_NEAR(corrector.covariance()(1, 1), 0.01 + 0.5, 1e-6);
+  EXPECT_NEAR(corrector.covariance()(0, 0), 0.01 + by_parameters, 1e-6);
+  // A covariance that becomes smaller takes nothing back.
+  corrector.add(readingOf(0, 0.2, 2.0), pose(1.0, 0.0, 0.0), Eigen::Matrix3d::Zero());
+  EXPECT_NEAR(corrector.covariance()(1, 1), 0.01 + 0.5, 1e-6);
+}
+
 TEST(RangeCorrector, AWallThatIsElsewhereIsGated) {
   Drive drive;
   // The map has the upper wall 0.6 m too low.
