@@ -44,8 +44,8 @@ if(STEREO_NAV_SANITIZE)
   add_compile_options(-fsanitize=${STEREO_NAV_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1 -O1
     -UNDEBUG -D_GLIBCXX_ASSERTIONS)
   if(STEREO_NAV_SANITIZE MATCHES "address" AND STEREO_NAV_SANITIZE MATCHES "undefined")
-    # What AddressSanitizer, the processor (null) and Eigen's assertions (alignment) find is not checked a second time at
-    # each access: without these checks the build takes two thirds of the time, and its code half the space.
+    # AddressSanitizer reports bad accesses by itself, and Eigen asserts its alignment: without a second check of each access
+    # a build takes two thirds of the time, and its code half the space.
     add_compile_options(-fno-sanitize=null,alignment,vptr,pointer-overflow,object-size)
   endif()
   # Under AddressSanitizer Eigen would allocate in its own way, and memory of ours would be freed in the plain way by an

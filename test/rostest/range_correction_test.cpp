@@ -124,5 +124,22 @@ TEST_F(RangeCorrectionNode, NamesTheRangeFinderThatMeetsNoWall) {
   EXPECT_TRUE(playUntil(2.5, isNamed));
 }
 
+TEST_F(RangeCorrectionNode, NamesAnOdometryThatIsNotTheOneOfTheTransform) {
+  GraphProbe probe;
+  const ros::Publisher publisher = handle_.advertise<nav_msgs::Odometry>("odometry/filtered", 1);
+  nav_msgs::Odometry odometry;
+  odometry.header.frame_id = "laser_odom";
+  odometry.child_frame_id = "base_link";
+  const auto isNamed = [&] {
+    publisher.publish(odometry);
+    for (const std::string& text : probe.log)
+      if (text.find("they are of base_link in laser_odom, tf is asked for base_link in odom") !=
+          std::string::npos)
+        return true;
+    return false;
+  };
+  EXPECT_TRUE(playUntil(5.6, isNamed));
+}
+
 }  // namespace
 }  // namespace stereo_nav::test
