@@ -58,7 +58,7 @@ void RangeCorrector::setPose(const Eigen::Isometry2d& T_map_base, const Eigen::M
 }
 
 RangeOutcome RangeCorrector::add(const RangeReading& reading, const Eigen::Isometry2d& T_odom_base,
-                                 const Eigen::Matrix3d& odom_covariance) {
+                                 const std::optional<Eigen::Matrix3d>& odom_covariance) {
   moveTo(reading.time_s, T_odom_base, odom_covariance);
   Finder& finder = finders_[reading.sensor];
   finder.readings.push_back({reading, T_odom_base});
@@ -79,7 +79,7 @@ RangeOutcome RangeCorrector::add(const RangeReading& reading, const Eigen::Isome
 }
 
 void RangeCorrector::moveTo(double time_s, const Eigen::Isometry2d& T_odom_base,
-                            const Eigen::Matrix3d& odom_covariance) {
+                            const std::optional<Eigen::Matrix3d>& odom_covariance) {
   if (moving_) {
     const Eigen::Isometry2d motion = T_odom_base_.inverse() * T_odom_base;
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(P_.rows(), P_.cols());
@@ -98,17 +98,16 @@ void RangeCorrector::moveTo(double time_s, const Eigen::Isometry2d& T_odom_base,
 
 /// By the parameters, and along the directions in which the odometry's covariance grows by more, by that.
 Eigen::Matrix3d RangeCorrector::motionNoise(const Eigen::Isometry2d& motion,
-                                            const Eigen::Matrix3d& odom_covariance) const {
+                                            const std::optional<Eigen::Matrix3d>& odom_covariance) const {
   const double way_m = motion.translation().norm(), turn_rad = std::abs(yawOf(motion));
   const double way_variance = std::pow(params_.way_noise_m, 2) * way_m;
   Eigen::Matrix3d noise =
       Eigen::Vector3d(way_variance, way_variance, std::pow(params_.turn_noise_rad, 2) * (way_m + turn_rad))
           .asDiagonal();
+  if (!odom_covariance || !odom_covariance_) return noise;
   const Eigen::Matrix3d carry = carryOf(T_odom_base_.linear() * motion.translation());
-  Eigen::Matrix3d R_map_odom = Eigen::Matrix3d::Identity();
-  R_map_odom.topLeftCorner<2, 2>() = T_map_odom().linear();
   const Eigen::Matrix3d growth =
-      R_map_odom * (odom_covariance - carry * odom_covariance_ * carry.transpose()) * R_map_odom.transpose();
+      inAxesOf(T_map_odom(), *odom_covariance - carry * *odom_covariance_ * carry.transpose());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> more(growth - noise);
   noise +=
       more.eigenvectors() * more.eigenvalues().cwiseMax(0.0).asDiagonal() * more.eigenvectors().transpose();

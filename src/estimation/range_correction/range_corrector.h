@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "estimation/range_correction/range_params.h"
@@ -46,10 +47,10 @@ class RangeCorrector {
   /// Where the robot is, x y yaw; what is known of the range finders stays.
   void setPose(const Eigen::Isometry2d& T_map_base, const Eigen::Matrix3d& covariance);
   /// A reading, and where the odometry had the robot then, with its covariance (x, y, yaw; axes of the
-  /// odometry's frame) where that is known: what it grows by counts where it is more than the parameters say.
-  /// Ranges must be finite and within the range finder's limits.
+  /// odometry's frame) where that is known: what it has grown by since the reading before counts where it is
+  /// more than the parameters say. Ranges must be finite and within the range finder's limits.
   RangeOutcome add(const RangeReading& reading, const Eigen::Isometry2d& T_odom_base,
-                   const Eigen::Matrix3d& odom_covariance = Eigen::Matrix3d::Zero());
+                   const std::optional<Eigen::Matrix3d>& odom_covariance = std::nullopt);
 
   /// At the newest reading.
   const Eigen::Isometry2d& T_map_base() const { return T_map_base_; }
@@ -79,8 +80,10 @@ class RangeCorrector {
     double range_m = 0.0;     ///< expected, of the newest reading
   };
 
-  void moveTo(double time_s, const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& odom_covariance);
-  Eigen::Matrix3d motionNoise(const Eigen::Isometry2d& motion, const Eigen::Matrix3d& odom_covariance) const;
+  void moveTo(double time_s, const Eigen::Isometry2d& T_odom_base,
+              const std::optional<Eigen::Matrix3d>& odom_covariance);
+  Eigen::Matrix3d motionNoise(const Eigen::Isometry2d& motion,
+                              const std::optional<Eigen::Matrix3d>& odom_covariance) const;
   bool movedOn(const Finder& finder) const;
   RangeOutcome measure(std::size_t sensor);
   Beam beamOf(const Past& past) const;
@@ -97,7 +100,7 @@ class RangeCorrector {
   bool moving_ = false;
   double time_s_ = 0.0;
   Eigen::Isometry2d T_odom_base_ = Eigen::Isometry2d::Identity();
-  Eigen::Matrix3d odom_covariance_ = Eigen::Matrix3d::Zero();
+  std::optional<Eigen::Matrix3d> odom_covariance_;
   std::array<std::size_t, kRangeOutcomes> counts_{};
 };
 

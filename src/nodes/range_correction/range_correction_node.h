@@ -12,6 +12,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,7 @@ class RangeCorrectionNode {
   tf2_ros::TransformListener tf_listener_;
   std::vector<Finder> finders_;  ///< after the buffer, which they leave when they end
   estimation::RangeCorrector corrector_;
-  Eigen::Matrix3d odom_covariance_ = Eigen::Matrix3d::Zero();  ///< x, y, yaw, of the newest message
+  std::optional<Eigen::Matrix3d> odom_covariance_;  ///< x, y, yaw, of the newest message
   bool has_map_ = false;
   tf2_ros::TransformBroadcaster broadcaster_;
   ros::Publisher pose_;
