@@ -2,6 +2,7 @@
 
 option(STEREO_NAV_EXPERIMENTS "Build what only the experiments need: imu_drift, true_disparity, the workflow's tests" ON)
 option(STEREO_NAV_NAVIGATION "Build path planning and what drives the robot" ON)
+option(STEREO_NAV_MAPPING "Build what recognises places, makes maps and follows a single camera" ON)
 
 # stereo_nav_private_headers(<name>): lets a target of this package include "ROOM/header.h" from src/. Only in quotes, so
 # that <ros/...> stays ROS's own.
