@@ -111,8 +111,8 @@ void OdometryPublisher::publishStatus(const ros_io::FrameMessages& frame, const 
   status->reprojection_error_px = static_cast<float>(result.reprojection_error_px);
   status->skew_s = (frame.right_stamp - frame.left_stamp).toSec();
   status->skew_compensated = static_cast<std::uint8_t>(result.time_offset_compensated);
-  status->right_offset_s = nan;
-  status->right_offset_sigma_s = nan;
+  status->right_offset_s = static_cast<float>(result.right_stamp_error_s);
+  status->right_offset_sigma_s = static_cast<float>(result.right_stamp_sigma_s);
   status->imu_offset_s = nan;
   status->imu_offset_sigma_s = nan;
   status->rotation_disagreement_deg = static_cast<float>(result.rotation_disagreement_rad * kDegPerRad);

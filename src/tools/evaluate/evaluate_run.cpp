@@ -95,7 +95,8 @@ class Run {
  public:
   Run(const ros_io::Recording& recording, const ros_io::StereoProcessing& processing,
       const odometry::OdometryConfig& config, const std::optional<std::string>& disparity_bag,
-      const Eigen::Isometry3d& T_base_camera, const PoseParams& pose_params, const ImuMounting& imu)
+      const Eigen::Isometry3d& T_base_camera, const PoseParams& pose_params, const ImuMounting& imu,
+      double right_stamp_error_s)
       : recording_(recording),
         processing_(processing),
         config_(config),
@@ -103,6 +104,7 @@ class Run {
         uncertainty_(pose_params, T_base_camera),
         imu_problem_(imu.problem),
         odometry_(config_, processing.calibration(), {T_base_camera.linear(), imu.R_base_imu}),
+        right_stamp_error_s_(right_stamp_error_s),
         camera_order_(processing.calibration()) {
     if (disparity_bag && config_.disparityUse() != odometry::DisparityUse::kNone)
       recorded_disparity_.emplace(*disparity_bag);
@@ -111,7 +113,7 @@ class Run {
   eval::FrameRecord handle(const ros_io::RawPair& pair) {
     odometry::StereoFrame frame;
     frame.left_time_s = pair.left_time_s;
-    frame.right_time_s = pair.right_time_s;
+    frame.right_time_s = pair.right_time_s - right_stamp_error_s_;
     frame.readout_s = pair.rolling_shutter_s;
     frame.left = processing_.rectifyLeft(pair.left);
     frame.right = processing_.rectifyRight(pair.right);
@@ -125,6 +127,7 @@ class Run {
     if (frames_++ % kFramesBetweenOrderChecks == 0) camera_order_.observe(frame.left, frame.right);
     const auto start = Clock::now();
     const odometry::FrameResult result = odometry_.process(frame);
+    if (result.right_stamps_are_corrected) found_right_stamp_error_s_ = result.right_stamp_error_s;
     record.timing.frame_ms = millisecondsSince(start);
     for (const odometry::StageTime& stage : result.stage_times) {
       record.timing.stages_ms.emplace_back(stage.stage, stage.milliseconds);
@@ -148,6 +151,8 @@ class Run {
   }
   /// Why the IMU contradicts the images; empty while it is used, or was not used from the start.
   const std::string& imuContradiction() const { return odometry_.imuProblem(); }
+  /// By how much the right stamps are still off, stamp minus true time; 0 where nothing speaks for it.
+  double rightStampError_s() const { return found_right_stamp_error_s_; }
   /// What the frames told of their uncertainty.
   RelativeCovariance uncertainty() const { return uncertainty_; }
 
@@ -181,6 +186,8 @@ class Run {
   RelativeCovariance uncertainty_;
   std::string imu_problem_;  ///< why it is not used
   odometry::WatchedOdometry odometry_;
+  double right_stamp_error_s_;              ///< that is taken off
+  double found_right_stamp_error_s_ = 0.0;  ///< beyond that
   std::size_t frames_ = 0;
   vision::CameraOrderCheck camera_order_;
   std::size_t next_imu_ = 0;
@@ -225,14 +232,22 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.truth_sigma_m = options.truth_sigma_m;
   run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
 
+  double right_stamp_error_s = 0.0;
   for (int repetition = 0; repetition < options.repeat;) {
-    Run pass(recording, processing, config, options.disparity_from, T_base_camera, pose_params, imu);
+    Run pass(recording, processing, config, options.disparity_from, T_base_camera, pose_params, imu,
+             right_stamp_error_s);
     std::vector<eval::FrameRecord> frames;
     recording.forEachPair([&](const ros_io::RawPair& pair) {
       frames.push_back(pass.handle(pair));
       run.timings.push_back(frames.back().timing);
       progress(run.timings.size(), recording.pairs() * static_cast<std::size_t>(options.repeat));
     });
+    if (right_stamp_error_s == 0.0 && pass.rightStampError_s() != 0.0) {
+      // Once more with right stamps from the first frame on.
+      right_stamp_error_s = pass.rightStampError_s();
+      run.timings.clear();
+      continue;
+    }
     if (!pass.imuContradiction().empty()) {
       // Once more by vision alone, from the first frame on.
       imu.problem = "the IMU contradicts the images: " + pass.imuContradiction();
@@ -247,6 +262,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
       throw std::logic_error("two runs on the same recording differ; this is a defect of the odometry");
     }
   }
+  if (right_stamp_error_s != 0.0) run.input.notes.push_back(ros_io::wrongRightStamps(right_stamp_error_s));
   if (!imu.problem.empty()) {
     run.input.imu_set_aside = imu.problem;
     run.input.notes.push_back("the IMU is set aside, the path is that of vision alone: " + imu.problem);
