@@ -13,20 +13,23 @@ namespace stereo_nav::ros_io {
 namespace {
 
 [[noreturn]] void refuse(const Keyframe& message, const std::string& why) {
-  throw InputError(fmt::format("vo/keyframe: keyframe {} {}: it was made by another version of the package, or "
-                               "was damaged",
-                               message.id, why));
+  throw InputError(
+      fmt::format("vo/keyframe: keyframe {} {}: it was made by another version of the package, or "
+                  "was damaged",
+                  message.id, why));
 }
 
 void checkSizes(const Keyframe& message) {
   const std::size_t corners = message.landmark_ids.size();
-  for (const auto* list : {&message.x_px, &message.y_px, &message.disparity_px, &message.disparity_sigma_px}) {
+  for (const auto* list :
+       {&message.x_px, &message.y_px, &message.disparity_px, &message.disparity_sigma_px}) {
     if (list->size() != corners)
       refuse(message, fmt::format("has a list of {} values for {} corners", list->size(), corners));
   }
   const std::size_t of_all_corners = corners * sizeof(vision::Descriptor);
-  const bool fits = corners == 0 ? message.descriptors.empty()
-                                 : !message.descriptors.empty() && message.descriptors.size() % of_all_corners == 0;
+  const bool fits = corners == 0
+                        ? message.descriptors.empty()
+                        : !message.descriptors.empty() && message.descriptors.size() % of_all_corners == 0;
   if (!fits)
     refuse(message, fmt::format("has {} bytes of descriptors for {} corners of {} bytes each at every scale",
                                 message.descriptors.size(), corners, sizeof(vision::Descriptor)));

@@ -22,12 +22,13 @@ class LoopFinder {
   /// KeyframeChain::add() does.
   std::vector<LoopCandidate> add(vision::Keyframe keyframe);
 
+  /// The first keyframe that is recent or covisible with the newest one: those before it are candidates.
+  std::size_t endOfPast() const;
+
   const KeyframeChain& chain() const { return chain_; }
   const PlaceIndex& index() const { return index_; }
 
  private:
-  /// The first keyframe that is recent or covisible with the newest one.
-  std::size_t endOfPast() const;
   /// Loops of the keyframes before that say the same as the candidate.
   std::size_t agreeing(const LoopCandidate& candidate) const;
   /// Decides about a candidate that geometry has verified.

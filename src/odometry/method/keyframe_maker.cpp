@@ -9,7 +9,8 @@
 namespace stereo_nav::odometry {
 
 std::optional<vision::Keyframe> KeyframeMaker::add(const StereoFrame& frame, const FrameResult& result) {
-  if (result.new_map) pause();
+  // An odometry that begins anew counts from one again.
+  if (result.new_map || (result.keyframe && result.keyframe_id <= source_id_)) pause();
   if (isMeasured(result.state) && !result.new_map && result.motion_covariance.allFinite()) {
     const Matrix6d carry = adjoint(result.T_previous_current.inverse());
     covariance_ = carry * covariance_ * carry.transpose() + result.motion_covariance;
@@ -29,8 +30,7 @@ std::optional<vision::Keyframe> KeyframeMaker::add(const StereoFrame& frame, con
 }
 
 vision::Keyframe KeyframeMaker::describe(const StereoFrame& frame, const FrameResult& result) {
-  // An odometry that begins anew counts from one again.
-  if (result.keyframe_id <= source_id_) landmark_offset_ = newest_landmark_;
+  if (!has_previous_) landmark_offset_ = newest_landmark_;
   source_id_ = result.keyframe_id;
   id_ = std::max(id_ + 1, result.keyframe_id);
   vision::Keyframe keyframe;

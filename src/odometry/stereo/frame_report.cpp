@@ -44,7 +44,8 @@ void reportKeyframe(const std::vector<Track>& tracks, const LocalMap& map,
     const Track& source = *track++;
     feature.stamp_px = vision::toCv(source.at_stamp.left_px);
     const Landmark* landmark = map.find(source.landmark_id);
-    if (landmark == nullptr || landmark->views.empty() || feature.p_camera.z() < vision::kNearestDepth_m) continue;
+    if (landmark == nullptr || landmark->views.empty() || feature.p_camera.z() < vision::kNearestDepth_m)
+      continue;
     feature.disparity_px = calibration.fx * calibration.baseline_m / feature.p_camera.z();
     const double views = std::max(1.0, static_cast<double>(landmark->views.size()) / kDependentViews);
     feature.disparity_sigma_px =

@@ -13,8 +13,8 @@ namespace stereo_nav::odometry {
 void reportTracks(const std::vector<Track>& tracks, const Eigen::Isometry3d& T_camera_world,
                   FrameResult& result);
 
-/// Adds to the features of a keyframe where a global shutter would have seen them, and their disparities by the
-/// map, with standard deviations.
+/// Adds to the features of a keyframe where a global shutter would have seen them, and their disparities by
+/// the map, with standard deviations.
 void reportKeyframe(const std::vector<Track>& tracks, const LocalMap& map,
                     const vision::StereoCalibration& calibration, FrameResult& result);
 
