@@ -24,7 +24,7 @@ struct FindLoopsOptions {
 
   // Of a folder.
   int features = 1000;
-  int threshold = 5;  ///< grey levels, of the corners
+  int threshold = 10;  ///< grey levels, of the corners
   double epipolar_px = 1.5;
   std::vector<std::size_t> same_after;  ///< truth: images so far apart show the same place; empty: unknown
   std::size_t same_within = 2;

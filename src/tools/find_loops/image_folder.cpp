@@ -15,6 +15,9 @@
 namespace stereo_nav::tools {
 namespace {
 
+/// Bits by which matches differ at most: fewer than where stereo tells wrong matches.
+constexpr int kMaxDistance = 50;
+
 using mapping::CornerMatch;
 using mapping::LoopCandidate;
 using mapping::LoopStage;
@@ -72,6 +75,19 @@ void verify(const FindLoopsOptions& options, const std::vector<DescribedCorners>
   candidate.bound = enough_matches ? params.min_inliers : params.min_matches;
 }
 
+/// Of the accepted candidates from `first` on, which are of one query, only the one with most inliers stays:
+/// an epipolar check leaves like places in, with fewer.
+void keepBest(LoopRun& run, std::size_t first) {
+  const auto begin = run.candidates.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto best = std::max_element(begin, run.candidates.end(),
+                                     [](const auto& a, const auto& b) { return a.inliers < b.inliers; });
+  for (auto candidate = begin; candidate != run.candidates.end(); ++candidate) {
+    if (candidate == best || !candidate->accepted()) continue;
+    candidate->stage = LoopStage::kInliers;
+    candidate->bound = static_cast<double>(best->inliers);
+  }
+}
+
 /// Whether a place is known to be shown again after so many images.
 bool isSame(const FindLoopsOptions& options, std::size_t query, std::size_t place) {
   return std::any_of(options.same_after.begin(), options.same_after.end(), [&](std::size_t after) {
@@ -96,6 +112,7 @@ LoopRun findLoopsInFolder(const FindLoopsOptions& options) {
     run.past_end.push_back(query < recent ? 0 : query - recent);
     const auto places = index.query(images->back().descriptors, run.past_end.back());
     const double retrieved_ms = processorTime_ms();
+    const std::size_t first = run.candidates.size();
     for (const mapping::Retrieved& retrieved : places) {
       LoopCandidate candidate;
       candidate.query = query;
@@ -106,6 +123,7 @@ LoopRun findLoopsInFolder(const FindLoopsOptions& options) {
       verify(options, *images, candidate);
       run.candidates.push_back(candidate);
     }
+    keepBest(run, first);
     index.add(images->back().descriptors);
     run.describe_ms.push_back(described_ms - start_ms);
     run.retrieval_ms.push_back(retrieved_ms - described_ms);
