@@ -12,6 +12,8 @@ const char* nameOf(LoopStage stage) {
       return "pose";
     case LoopStage::kInliers:
       return "inliers";
+    case LoopStage::kUncertainty:
+      return "uncertainty";
     case LoopStage::kConsistency:
       return "consistency";
     case LoopStage::kDrift:
@@ -34,6 +36,10 @@ std::string LoopCandidate::reason() const {
       return fmt::format(
           "{} of {} landmarks needed found again: another place that looks alike, or too few corners", figure,
           bound);
+    case LoopStage::kUncertainty:
+      return fmt::format(
+          "standard deviation of {:.3f} m above {:.3f}: landmarks too far away, or all in one direction",
+          figure, bound);
     case LoopStage::kConsistency:
       return fmt::format("{} of {} loops of the keyframes before needed say the same: a later keyframe may",
                          figure, bound);

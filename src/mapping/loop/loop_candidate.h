@@ -9,9 +9,9 @@
 namespace stereo_nav::mapping {
 
 /// How far a candidate came: the stage that rejected it, or acceptance.
-enum class LoopStage { kMatches, kPose, kInliers, kConsistency, kDrift, kAccepted };
+enum class LoopStage { kMatches, kPose, kInliers, kUncertainty, kDrift, kConsistency, kAccepted };
 
-/// "matches", "pose", "inliers", "consistency", "drift", "accepted".
+/// "matches", "pose", "inliers", "uncertainty", "drift", "consistency", "accepted".
 const char* nameOf(LoopStage stage);
 
 /// A place that may be the one where the query is, and what became of it.
@@ -23,10 +23,11 @@ struct LoopCandidate {
   double figure = 0.0, bound = 0.0;  ///< what the stage saw, and what it asked for
   std::size_t matches = 0;           ///< mutual ones of the descriptors
   std::size_t inliers = 0;           ///< after the search among the neighbours' landmarks
-  RelativePose place_query;          ///< pose of the query in the place's camera, from the stage kInliers on
+  RelativePose place_query;          ///< pose of the query in the place's camera, from the stage kUncertainty on
   double drift_chi2 = 0.0;           ///< against the odometry, 6 degrees of freedom; NaN: it knows nothing
 
   bool accepted() const { return stage == LoopStage::kAccepted; }
+  bool hasPose() const { return stage >= LoopStage::kUncertainty; }
   /// What decided, in words.
   std::string reason() const;
 };

@@ -10,6 +10,8 @@ void VerificationParams::describe(ParameterVisitor& visitor) {
                   "matches that agree with the pose from three of them at least");
   visitor.integer("min_inliers", min_inliers, {6, 10000}, "",
                   "landmarks of place and neighbours that are found again at least");
+  visitor.real("max_sigma_m", max_sigma_m, {1e-4, 100.0}, "m",
+               "standard deviation of the position that the landmarks leave at most");
   visitSection(visitor, "ransac", ransac);
   visitSection(visitor, "search", search);
 }

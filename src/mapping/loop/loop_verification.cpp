@@ -1,9 +1,24 @@
 #include "mapping/loop/loop_verification.h"
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
 #include "mapping/loop/loop_pose.h"
 
 namespace stereo_nav::mapping {
 namespace {
+
+/// Factor of the covariance: the landmarks of a place were seen by the same few frames, so that their errors
+/// are not independent (docs/place_recognition.md).
+constexpr double kDependence = 3.0;
+
+/// Of the position, m^2.
+double largestVariance(const RelativePose& pose) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(pose.covariance.topLeftCorner<3, 3>(),
+                                                        Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
 
 DescribedView viewOf(const vision::Keyframe& keyframe) {
   return {keyframe.descriptors, keyframe.corners.size()};
@@ -64,8 +79,12 @@ bool verifyLoop(const VerificationParams& params, const vision::StereoCalibratio
                                     first ? first->T_query_place : pose->T_query_place, agreed);
   const auto refined = refineLoopPose(calibration, all, first ? first->T_query_place : pose->T_query_place);
   candidate.inliers = refined ? refined->inliers : 0;
-  if (refined) candidate.place_query = {refined->T_query_place.inverse(), refined->covariance};
-  return passes(LoopStage::kInliers, candidate.inliers, params.min_inliers, candidate);
+  if (!passes(LoopStage::kInliers, candidate.inliers, params.min_inliers, candidate)) return false;
+  candidate.place_query = {refined->T_query_place.inverse(), kDependence * refined->covariance};
+  candidate.stage = LoopStage::kUncertainty;
+  candidate.figure = std::sqrt(largestVariance(candidate.place_query));
+  candidate.bound = params.max_sigma_m;
+  return candidate.figure <= candidate.bound;
 }
 
 }  // namespace stereo_nav::mapping

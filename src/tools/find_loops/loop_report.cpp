@@ -39,24 +39,35 @@ bool isFalse(const LoopRun& run, const LoopCandidate& candidate) {
   return T_true && (candidate.place_query.T.translation() - T_true->translation()).norm() > kElsewhere_m;
 }
 
+/// Error of the pose of a verified loop; nothing where the truth is not known, or there is no pose.
+struct PoseError {
+  double translation_m, rotation_deg, nees;
+};
+std::optional<PoseError> poseError(const LoopRun& run, const LoopCandidate& candidate) {
+  const auto T_true =
+      candidate.hasPose() && run.true_pose ? run.true_pose(candidate.query, candidate.place) : std::nullopt;
+  if (!T_true) return std::nullopt;
+  const Vector6d error = logMotion(candidate.place_query.T.inverse() * *T_true);
+  return PoseError{error.head<3>().norm(), error.tail<3>().norm() * kDegPerRad,
+                   error.dot(candidate.place_query.covariance.ldlt().solve(error))};
+}
+
 void addPoses(const LoopRun& run, LoopFigures& figures) {
-  double translations = 0.0, rotations = 0.0, nees = 0.0;
   for (const LoopCandidate& candidate : run.candidates) {
-    const auto T_true = candidate.accepted() ? run.true_pose(candidate.query, candidate.place) : std::nullopt;
-    if (!T_true || isFalse(run, candidate)) continue;
-    const Vector6d error = logMotion(candidate.place_query.T.inverse() * *T_true);
-    const double translation_m = error.head<3>().norm(), rotation_deg = error.tail<3>().norm() * kDegPerRad;
+    const auto error =
+        candidate.accepted() && !isFalse(run, candidate) ? poseError(run, candidate) : std::nullopt;
+    if (!error) continue;
     ++figures.posed;
-    translations += translation_m * translation_m;
-    rotations += rotation_deg * rotation_deg;
-    nees += error.dot(candidate.place_query.covariance.ldlt().solve(error));
-    figures.worst_translation_m = std::max(figures.worst_translation_m, translation_m);
-    figures.worst_rotation_deg = std::max(figures.worst_rotation_deg, rotation_deg);
+    figures.rms_translation_m += error->translation_m * error->translation_m;
+    figures.rms_rotation_deg += error->rotation_deg * error->rotation_deg;
+    figures.nees_mean += error->nees;
+    figures.worst_translation_m = std::max(figures.worst_translation_m, error->translation_m);
+    figures.worst_rotation_deg = std::max(figures.worst_rotation_deg, error->rotation_deg);
   }
   const double count = std::max(1.0, static_cast<double>(figures.posed));
-  figures.rms_translation_m = std::sqrt(translations / count);
-  figures.rms_rotation_deg = std::sqrt(rotations / count);
-  figures.nees_mean = nees / count;
+  figures.rms_translation_m = std::sqrt(figures.rms_translation_m / count);
+  figures.rms_rotation_deg = std::sqrt(figures.rms_rotation_deg / count);
+  figures.nees_mean /= count;
 }
 
 void addTruth(const LoopRun& run, LoopFigures& figures) {
@@ -155,22 +166,22 @@ std::string timingJson(const LoopRun& run) {
 std::string toCsv(const LoopRun& run) {
   std::string text =
       "query,place,query_name,place_name,score,stage,figure,bound,matches,inliers,drift_chi2,x_m,y_m,z_m,"
-      "rx_rad,ry_rad,rz_rad,same_place,reason\n";
+      "rx_rad,ry_rad,rz_rad,same_place,error_m,error_deg,nees,reason\n";
   for (const LoopCandidate& candidate : run.candidates) {
-    const Vector6d pose = [&candidate] {
-      Vector6d values;
-      values << candidate.place_query.T.translation(),
-          logRotation(Eigen::Matrix3d(candidate.place_query.T.linear()));
-      return values;
-    }();
-    const std::string same =
-        run.is_same_place ? (run.is_same_place(candidate.query, candidate.place) ? "yes" : "no") : "";
-    text += fmt::format(
-        "{},{},{},{},{:.4f},{},{:.6g},{:.6g},{},{},{:.4g},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.5f},{},\"{}\"\n",
-        candidate.query_id, candidate.place_id, run.names[candidate.query], run.names[candidate.place],
-        candidate.score, mapping::nameOf(candidate.stage), candidate.figure, candidate.bound,
-        candidate.matches, candidate.inliers, candidate.drift_chi2, pose[0], pose[1], pose[2], pose[3],
-        pose[4], pose[5], same, candidate.reason());
+    text += fmt::format("{},{},{},{},{:.4f},{},{:.6g},{:.6g},{},{},{:.4g},", candidate.query_id,
+                        candidate.place_id, run.names[candidate.query], run.names[candidate.place],
+                        candidate.score, mapping::nameOf(candidate.stage), candidate.figure, candidate.bound,
+                        candidate.matches, candidate.inliers, candidate.drift_chi2);
+    const Eigen::Vector3d turn = logRotation(Eigen::Matrix3d(candidate.place_query.T.linear()));
+    const Eigen::Vector3d way = candidate.place_query.T.translation();
+    text += fmt::format("{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.5f},", way.x(), way.y(), way.z(), turn.x(),
+                        turn.y(), turn.z());
+    if (run.is_same_place) text += run.is_same_place(candidate.query, candidate.place) ? "yes" : "no";
+    const auto error = poseError(run, candidate);
+    text += error
+                ? fmt::format(",{:.4f},{:.3f},{:.3g}", error->translation_m, error->rotation_deg, error->nees)
+                : std::string(",,,");
+    text += fmt::format(",\"{}\"\n", candidate.reason());
   }
   return text;
 }
