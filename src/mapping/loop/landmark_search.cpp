@@ -10,7 +10,7 @@ namespace {
 /// The corners of the query, and which of them are taken.
 class QueryCorners {
  public:
-  QueryCorners(const SearchParams& params, const vision::Keyframe& query)
+  QueryCorners(const LandmarkSearchParams& params, const vision::Keyframe& query)
       : params_(params), query_(query), taken_(query.corners.size(), false) {}
 
   const vision::KeyframeCorner& take(std::size_t corner) {
@@ -35,13 +35,14 @@ class QueryCorners {
   bool has(std::size_t corner) const { return corner < query_.corners.size(); }
 
  private:
-  const SearchParams& params_;
+  const LandmarkSearchParams& params_;
   const vision::Keyframe& query_;
   std::vector<bool> taken_;
 };
 
 /// The place, then its neighbours among the first `keyframes`, the nearest ones first.
-std::vector<std::size_t> aroundPlace(const SearchParams& params, std::size_t keyframes, std::size_t place) {
+std::vector<std::size_t> aroundPlace(const LandmarkSearchParams& params, std::size_t keyframes,
+                                     std::size_t place) {
   std::vector<std::size_t> positions{place};
   for (std::size_t step = 1; step <= static_cast<std::size_t>(params.neighbours); ++step) {
     if (place >= step) positions.push_back(place - step);
@@ -52,7 +53,7 @@ std::vector<std::size_t> aroundPlace(const SearchParams& params, std::size_t key
 
 }  // namespace
 
-void SearchParams::describe(ParameterVisitor& visitor) {
+void LandmarkSearchParams::describe(ParameterVisitor& visitor) {
   visitor.integer("neighbours", neighbours, {0, 100}, "",
                   "keyframes before and after a place whose landmarks are looked for, too");
   visitor.real("radius_px", radius_px, {0.5, 100.0}, "px", "distance within which they are looked for");
@@ -60,7 +61,7 @@ void SearchParams::describe(ParameterVisitor& visitor) {
                   "bits by which the descriptors of one landmark differ at most");
 }
 
-std::vector<LandmarkMatch> searchNeighbours(const SearchParams& params,
+std::vector<LandmarkMatch> searchNeighbours(const LandmarkSearchParams& params,
                                             const vision::StereoCalibration& calibration,
                                             const KeyframeChain& chain, std::size_t place,
                                             const vision::Keyframe& query,

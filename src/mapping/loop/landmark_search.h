@@ -9,7 +9,7 @@
 
 namespace stereo_nav::mapping {
 
-struct SearchParams {
+struct LandmarkSearchParams {
   int neighbours = 3;
   double radius_px = 8.0;
   int max_distance = 64;
@@ -21,7 +21,7 @@ struct SearchParams {
 /// landmark takes the most similar corner within `radius_px` that no landmark before it has taken. `matches`
 /// are those between place and query that the pose rests on; their corners are taken. Returns all matches,
 /// theirs first.
-std::vector<LandmarkMatch> searchNeighbours(const SearchParams& params,
+std::vector<LandmarkMatch> searchNeighbours(const LandmarkSearchParams& params,
                                             const vision::StereoCalibration& calibration,
                                             const KeyframeChain& chain, std::size_t place,
                                             const vision::Keyframe& query,

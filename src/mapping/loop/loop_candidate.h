@@ -23,8 +23,8 @@ struct LoopCandidate {
   double figure = 0.0, bound = 0.0;  ///< what the stage saw, and what it asked for
   std::size_t matches = 0;           ///< mutual ones of the descriptors
   std::size_t inliers = 0;           ///< after the search among the neighbours' landmarks
-  RelativePose place_query;          ///< pose of the query in the place's camera, from the stage kUncertainty on
-  double drift_chi2 = 0.0;           ///< against the odometry, 6 degrees of freedom; NaN: it knows nothing
+  RelativePose place_query;  ///< pose of the query in the place's camera, from the stage kUncertainty on
+  double drift_chi2 = 0.0;   ///< against the odometry, 6 degrees of freedom; NaN: it knows nothing
 
   bool accepted() const { return stage == LoopStage::kAccepted; }
   bool hasPose() const { return stage >= LoopStage::kUncertainty; }

@@ -11,6 +11,7 @@ namespace stereo_nav::mapping {
 namespace {
 
 constexpr int kFields = 6;
+constexpr std::size_t kCovisible = 10;  ///< landmarks that two keyframes of one place have in common
 
 /// Squared distance between two accounts of one pose, in units of what both are uncertain by.
 double chiSquare(const RelativePose& a, const RelativePose& b) {
@@ -57,7 +58,8 @@ std::size_t LoopFinder::endOfPast() const {
   const std::size_t query = chain_.size() - 1;
   const auto recent = static_cast<std::size_t>(params_.retrieval.exclude_recent);
   std::size_t end = query < recent ? 0 : query - recent;
-  while (end > 0 && chain_.sharedLandmarks(end - 1, query) > 0) --end;
+  // What lies far ahead in a corridor is seen from all of it, and makes none of it the same place.
+  while (end > 0 && chain_.sharedLandmarks(end - 1, query) >= kCovisible) --end;
   return end;
 }
 

@@ -11,9 +11,9 @@ struct VerificationParams {
   int min_matches = 15;
   int min_pose_inliers = 10;
   int min_inliers = 30;
-  double max_sigma_m = 0.03;
+  double max_sigma_m = 0.015;
   RansacParams ransac;
-  SearchParams search;
+  LandmarkSearchParams search;
 
   void describe(ParameterVisitor& visitor);
 };

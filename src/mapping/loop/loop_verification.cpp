@@ -10,7 +10,7 @@ namespace {
 
 /// Factor of the covariance: the landmarks of a place were seen by the same few frames, so that their errors
 /// are not independent (docs/place_recognition.md).
-constexpr double kDependence = 3.0;
+constexpr double kDependence = 4.0;
 
 /// Of the position, m^2.
 double largestVariance(const RelativePose& pose) {
