@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "unit/mapping/loop/landmark_world.h"
 
 namespace stereo_nav::mapping {
@@ -17,7 +19,8 @@ class Drive {
   std::vector<LoopCandidate> step(LandmarkWorld& world, const Vector6d& drift = Vector6d::Zero()) {
     const Eigen::Isometry3d T_world_camera = onCircle(static_cast<double>(count_) / kLap);
     vision::Keyframe keyframe = world.seenFrom(T_world_camera, count_ + 1);
-    keyframe.follows = count_ > 0;
+    keyframe.follows = count_ > 0 && !begins_anew_;
+    begins_anew_ = false;
     if (keyframe.follows) {
       keyframe.T_previous_keyframe = before_.inverse() * T_world_camera * expMotion(drift);
       keyframe.covariance = 1e-6 * Matrix6d::Identity();
@@ -27,13 +30,14 @@ class Drive {
     return finder_.add(keyframe);
   }
 
-  const LoopFinder& finder() const { return finder_; }
-  std::uint32_t count() const { return count_; }
+  /// The odometry does not know how far it is from the last keyframe to the next.
+  void beginAnew() { begins_anew_ = true; }
 
  private:
   LoopFinder finder_;
   Eigen::Isometry3d before_ = Eigen::Isometry3d::Identity();
   std::uint32_t count_ = 0;
+  bool begins_anew_ = false;
 };
 
 /// Error of an accepted loop: of the right perturbation of the query's pose in the place.
@@ -77,6 +81,23 @@ TEST(LoopFinderTest, TheFirstLoopWaitsForAnotherOneThatSaysTheSame) {
   ASSERT_FALSE(first.empty() || second.empty());
   EXPECT_EQ(first.front().stage, LoopStage::kConsistency);
   EXPECT_TRUE(second.front().accepted());
+}
+
+TEST(LoopFinderTest, AfterANewStartOfTheOdometryNothingIsKnownOfTheDriftAndTheLoopIsFound) {
+  LandmarkWorld world(8);
+  Drive drive;
+  for (int i = 0; i < kLap; ++i) drive.step(world);
+  drive.beginAnew();
+  int accepted = 0;
+  for (int i = 0; i < 5; ++i) {
+    for (const LoopCandidate& candidate : drive.step(world)) {
+      if (!candidate.accepted()) continue;
+      ++accepted;
+      EXPECT_TRUE(std::isnan(candidate.drift_chi2));
+      EXPECT_LT(errorOf(candidate).head<3>().norm(), 0.02);
+    }
+  }
+  EXPECT_GE(accepted, 4);
 }
 
 TEST(LoopFinderTest, ATwinOfTheRoomFurtherThanTheDriftIsNoLoop) {
