@@ -63,6 +63,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
   result.keyframe_id = keyframe_id_;
   result.time_offset_compensated = images.times.rightOffset_s() != 0.0;
   reportTracks(follower_.tracks(), motion_.previousView().T_camera_world, result);
+  if (result.keyframe) reportKeyframe(follower_.tracks(), map_, calibration_, result);
   return result;
 }
 

@@ -58,6 +58,10 @@ struct FeatureReport {
   cv::Point2f current_px;                              ///< where it is in the left image
   Fate fate = Fate::kDetected;                         ///< how far it came
   Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  ///< left optical frame, m; zero if without depth
+  // Of keyframes alone, by odometries that keep a map:
+  cv::Point2f stamp_px;             ///< current_px as a global shutter would have seen it at the stamp
+  double disparity_px = 0.0;        ///< of p_camera, as the map has it; 0: unknown
+  double disparity_sigma_px = 0.0;  ///< its standard deviation
 };
 
 /// Wall-clock time that a stage of this frame took.
