@@ -10,40 +10,47 @@ bool isOdometry(std::size_t from, std::size_t to) {
   return from + 1 == to || to + 1 == from;
 }
 
-/// For each vertex the edges that touch it, odometry first.
+/// For each vertex the edges of one kind that touch it.
 template <class Pose>
-std::vector<std::vector<std::size_t>> edgesOfVertices(const PoseGraph<Pose>& graph) {
+std::vector<std::vector<std::size_t>> edgesOfVertices(const PoseGraph<Pose>& graph, bool odometry) {
   std::vector<std::vector<std::size_t>> touching(graph.poses.size());
-  for (const bool odometry : {true, false}) {
-    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-      const auto& edge = graph.edges[e];
-      if (isOdometry(edge.from, edge.to) != odometry) continue;
-      touching[edge.from].push_back(e);
-      touching[edge.to].push_back(e);
-    }
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const auto& edge = graph.edges[e];
+    if (isOdometry(edge.from, edge.to) != odometry) continue;
+    touching[edge.from].push_back(e);
+    touching[edge.to].push_back(e);
   }
   return touching;
 }
 
-/// Visits each vertex once, breadth first; `reach(edge, vertex)` says by which edge, and returns whether this
-/// edge leads there.
+/// Visits each vertex once, from the first of each connected part, along odometry as far as it goes and then
+/// by one other edge. `begin(vertex)` begins a part; `reach(edge, vertex)` says by which edge a vertex is
+/// found, and returns whether this edge leads there.
 template <class Pose, class Begin, class Reach>
 void walk(const PoseGraph<Pose>& graph, const Begin& begin, const Reach& reach) {
-  const auto touching = edgesOfVertices(graph);
+  const auto by_odometry = edgesOfVertices(graph, true), by_loops = edgesOfVertices(graph, false);
   std::vector<bool> seen(graph.poses.size(), false);
-  std::vector<std::size_t> queue;
+  std::vector<std::size_t> found;
+  const auto follow = [&](std::size_t vertex, const std::vector<std::size_t>& edges) {
+    for (const std::size_t e : edges) {
+      const std::size_t other = graph.edges[e].from == vertex ? graph.edges[e].to : graph.edges[e].from;
+      if (seen[other] || !reach(e, other)) continue;
+      seen[other] = true;
+      found.push_back(other);
+    }
+  };
   for (std::size_t first = 0; first < seen.size(); ++first) {
     if (seen[first]) continue;
     begin(first);
     seen[first] = true;
-    queue.assign(1, first);
-    for (std::size_t next = 0; next < queue.size(); ++next) {
-      for (const std::size_t e : touching[queue[next]]) {
-        const auto& edge = graph.edges[e];
-        const std::size_t other = edge.from == queue[next] ? edge.to : edge.from;
-        if (seen[other] || !reach(e, other)) continue;
-        seen[other] = true;
-        queue.push_back(other);
+    found.assign(1, first);
+    for (std::size_t odometry = 0, loops = 0; loops < found.size();) {
+      if (odometry < found.size()) {
+        const std::size_t vertex = found[odometry++];
+        follow(vertex, by_odometry[vertex]);
+      } else {
+        const std::size_t vertex = found[loops++];
+        follow(vertex, by_loops[vertex]);
       }
     }
   }

@@ -63,8 +63,8 @@ std::vector<bool> loopsOf(const PoseGraph<Pose>& graph);
 template <class Pose>
 std::vector<std::size_t> odometryOf(const PoseGraph<Pose>& graph);
 
-/// Poses by following edges from the first vertex of each connected part, breadth first, odometry first: the
-/// start where there is no other. The first vertex of a part keeps its pose.
+/// Poses by following edges from the first vertex of each connected part, along the odometry where there is
+/// one: the start where there is no other. The first vertex of a part keeps its pose.
 template <class Pose>
 void chainPoses(PoseGraph<Pose>& graph);
 

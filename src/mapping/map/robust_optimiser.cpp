@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/statistics.h"
 #include "mapping/map/edge_error.h"
@@ -13,6 +15,9 @@ namespace {
 /// The control parameter of the graduation: at the first value loops of up to ten times the gate count, the
 /// last is all or nothing to a hundredth.
 constexpr double kFirstControl = 1.0 / 9.0, kLastControl = 100.0, kControlFactor = 1.6;
+
+/// A set of true loops needs fewer steps to join; one of false loops would go on for long.
+constexpr int kJoinIterations = 10;
 
 /// Weight of a loop under truncated least squares, softened by the control parameter.
 double softWeight(double chi_square, double gate, double control) {
@@ -28,6 +33,7 @@ class RobustOptimiser {
       : graph_(graph),
         params_(params),
         gate_(chiSquareQuantile(Motion<Pose>::kDof, params.confidence)),
+        is_loop_(loopsOf(graph)),
         consistency_(consistentLoops(graph, params.consistency)) {
     use_.weights.assign(graph.edges.size(), 1.0);
   }
@@ -50,31 +56,51 @@ class RobustOptimiser {
 
  private:
   void beginWithTheLargestSet() {
-    for (const std::size_t e : consistency_.loops) use_.weights[e] = 0.0;
-    setWeights(consistency_.sets.front(), 1.0);
-    EdgeUse use = use_;
-    use.cauchy_chi = params_.cauchy_chi;
-    use.robust = loopsOf(graph_);
-    optimise(graph_, params_.optimiser, use);
-    chi_square_ = optimise(graph_, params_.optimiser, use_).chi_square_after;
+    setWeights(consistency_.loops, 0.0);
+    setWeights(edgesOf(consistency_.sets.front()), 1.0);
+    optimiseRobustly(graph_, params_.optimiser);
+    cost_ = truncatedCost(graph_);
   }
 
-  /// Loops that agree with each other are taken when chi-square rises by less than the gate for each of them:
-  /// that lowers the cost of truncated least squares, in which a rejected loop costs the gate.
   void tryToJoin(const std::vector<std::size_t>& set) {
     PoseGraph<Pose> joined = graph_;
-    setWeights(set, 1.0);
-    const double chi_square = optimise(joined, params_.optimiser, use_).chi_square_after;
-    if (chi_square - chi_square_ < gate_ * static_cast<double>(set.size())) {
-      graph_.poses = joined.poses;
-      chi_square_ = chi_square;
+    setWeights(edgesOf(set), 1.0);
+    OptimiserParams params = params_.optimiser;
+    params.max_iterations = std::min(params.max_iterations, kJoinIterations);
+    optimiseRobustly(joined, params);
+    const double cost = truncatedCost(joined);
+    if (cost < cost_) {
+      graph_.poses = std::move(joined.poses);
+      cost_ = cost;
     } else {
-      setWeights(set, 0.0);
+      setWeights(edgesOf(set), 0.0);
     }
   }
 
-  void setWeights(const std::vector<std::size_t>& set, double weight) {
-    for (const std::size_t i : set) use_.weights[consistency_.loops[i]] = weight;
+  void optimiseRobustly(PoseGraph<Pose>& graph, const OptimiserParams& params) const {
+    EdgeUse use = use_;
+    use.cauchy_chi = params_.cauchy_chi;
+    use.robust = is_loop_;
+    optimise(graph, params, use);
+  }
+
+  /// The cost of truncated least squares: a loop costs its chi-square, or the gate for being rejected.
+  double truncatedCost(const PoseGraph<Pose>& graph) const {
+    double cost = 0.0;
+    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+      const double chi_square = chiSquare(graph, graph.edges[e]);
+      cost += is_loop_[e] ? std::min(chi_square, gate_) : chi_square;
+    }
+    return cost;
+  }
+
+  std::vector<std::size_t> edgesOf(const std::vector<std::size_t>& set) const {
+    std::vector<std::size_t> edges;
+    for (const std::size_t i : set) edges.push_back(consistency_.loops[i]);
+    return edges;
+  }
+  void setWeights(const std::vector<std::size_t>& edges, double weight) {
+    for (const std::size_t e : edges) use_.weights[e] = weight;
   }
 
   template <class Weight>
@@ -99,7 +125,8 @@ class RobustOptimiser {
 
   PoseGraph<Pose>& graph_;
   const RobustParams& params_;
-  double gate_, chi_square_ = 0.0;
+  double gate_, cost_ = 0.0;
+  std::vector<bool> is_loop_;
   ConsistentLoops consistency_;
   EdgeUse use_;
 };

@@ -36,8 +36,8 @@ struct RobustResult {
 
 /// The poses of the graph without its false loops, in steps of which none is enough alone: the largest set of
 /// loops that agree with each other (mutual_consistency.h), under Cauchy's loss; other such sets, each taken
-/// where it costs less than rejecting its members; then all loops again with weights that go from soft to all
-/// or nothing as the error they allow shrinks to the gate (graduated non-convexity for truncated least
+/// where that lowers the cost of truncated least squares; then all loops again with weights that go from soft
+/// to all or nothing as the error they allow shrinks to the gate (graduated non-convexity for truncated least
 /// squares: Yang et al. 2020, eq. 12 and 14), begun at that map instead of with all loops alike; at last
 /// those within the gate, as plain least squares.
 template <class Pose>

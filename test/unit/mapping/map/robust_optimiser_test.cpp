@@ -63,7 +63,7 @@ TEST(OptimiseRobustly, RevokesALoopWhenOthersSpeakAgainstIt) {
   Laps laps = drivenLaps(3);
   const auto true_loops = laps.graph.edges;
   GraphEdge<Eigen::Isometry2d> wrong = true_loops.back();
-  wrong.T_from_to.pretranslate(Eigen::Vector2d(0.3, 0.3));  // within what the odometry alone leaves open
+  wrong.T_from_to.pretranslate(Eigen::Vector2d(0.15, 0.1));  // within what the odometry alone leaves open
   laps.graph.edges.resize(107);
   laps.graph.edges.push_back(wrong);
   EXPECT_TRUE(optimiseRobustly(laps.graph, RobustParams()).loops.back().kept);
