@@ -142,7 +142,7 @@ OptimiserResult optimise(PoseGraph<Pose>& graph, const OptimiserParams& params, 
   if (problem.NumResidualBlocks() > 0) ceres::Solve(optionsOf(params), &problem, &summary);
   for (std::size_t v = 0; v < blocks.size(); ++v) graph.poses[v] = PoseBlock<Pose>::read(blocks[v].data());
   result.chi_square_after = chiSquare(graph, use.weights);
-  result.iterations = static_cast<int>(summary.iterations.size());
+  result.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
   result.converged = problem.NumResidualBlocks() == 0 || summary.termination_type == ceres::CONVERGENCE;
   return result;
 }

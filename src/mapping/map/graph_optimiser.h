@@ -21,7 +21,7 @@ struct OptimiserParams {
 
 struct OptimiserResult {
   double chi_square_before = 0.0, chi_square_after = 0.0;  ///< without the loss of robust edges
-  int iterations = 0;
+  int iterations = 0;      ///< steps that were tried
   bool converged = false;  ///< else max_iterations were not enough
   bool chordal = false;    ///< whether it began from the chordal start
 };

@@ -45,9 +45,11 @@ std::string toJson(const GraphRun& run) {
   json.add("loops", run.loops);
   json.add("chi_square_before", run.optimiser.chi_square_before);
   json.add("chi_square_after", run.optimiser.chi_square_after);
-  json.add("iterations", run.optimiser.iterations);
+  if (!run.robust) {
+    json.add("iterations", run.optimiser.iterations);
+    json.add("chordal_start", run.optimiser.chordal);
+  }
   json.add("converged", run.optimiser.converged);
-  json.add("chordal_start", run.optimiser.chordal);
   json.add("processor_time_ms", run.processor_time_ms);
   if (run.robust) {
     json.add("loops_kept", count(run, true, false) + count(run, true, true));
@@ -89,10 +91,15 @@ std::string pictureScript(const GraphRun& run) {
 void print(const GraphRun& run) {
   std::printf("%s: %zu vertices, %zu edges, of which %zu are loops\n", run.file.c_str(), run.vertices,
               run.edges, run.loops);
-  std::printf("  chi-square %.6g before, %.6g after %d iterations%s%s\n", run.optimiser.chi_square_before,
-              run.optimiser.chi_square_after, run.optimiser.iterations,
-              run.optimiser.chordal ? " from a chordal start" : "",
-              run.optimiser.converged ? "" : ", not converged");
+  if (run.robust) {
+    std::printf("  chi-square %.6g before with all loops, %.6g after with those kept\n",
+                run.optimiser.chi_square_before, run.optimiser.chi_square_after);
+  } else {
+    std::printf("  chi-square %.6g before, %.6g after %d iterations%s%s\n", run.optimiser.chi_square_before,
+                run.optimiser.chi_square_after, run.optimiser.iterations,
+                run.optimiser.chordal ? " from a chordal start" : "",
+                run.optimiser.converged ? "" : ", not converged");
+  }
   std::printf("  processor time %.1f ms\n", run.processor_time_ms);
   if (run.robust)
     std::printf("  loops kept %zu, rejected %zu; largest consistent set %zu%s\n",
