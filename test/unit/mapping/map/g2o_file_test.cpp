@@ -1,37 +1,20 @@
 #include "mapping/map/g2o_file.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-
 #include "mapping/map/edge_error.h"
 #include "stereo_nav/core/input_error.h"
+#include "support/trajectories.h"
 
 namespace stereo_nav::mapping {
 namespace {
 
 class G2oFile : public ::testing::Test {
  protected:
-  ~G2oFile() override { std::filesystem::remove(path_); }
-  AnyGraph read(const std::string& text) const {
-    std::ofstream(path_) << text;
-    return readG2o(path_);
-  }
-  std::string errorOf(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  }
+  AnyGraph read(const std::string& text) const { return readG2o(folder_.write("graph.g2o", text)); }
   void expectError(const std::string& text, const std::string& part) const {
-    const std::string error = errorOf(text);
+    const std::string error = messageOf<InputError>([&] { read(text); });
     EXPECT_NE(error.find(part), std::string::npos) << text << "\n" << error;
   }
-  const std::string path_ =
-      (std::filesystem::temp_directory_path() / ("g2o_file_test_" + std::to_string(::getpid()))).string();
+  TemporaryFolder folder_;
 };
 
 TEST_F(G2oFile, ReadsPosesOfAPlaneInAnyOrder) {

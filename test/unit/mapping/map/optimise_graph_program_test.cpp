@@ -1,9 +1,9 @@
 // `optimise_graph` as its users run it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/atomic_file.h"
 #include "stereo_nav/core/trajectory.h"
 #include "support/command.h"
 #include "support/trajectories.h"
@@ -14,12 +14,12 @@ namespace {
 
 class OptimiseGraphProgram : public ::testing::Test {
  protected:
-  OptimiseGraphProgram() { writeFileAtomically(folder_ / "graph.g2o", toG2o(drivenLaps(1).graph)); }
+  OptimiseGraphProgram() { folder_.write("graph.g2o", toG2o(drivenLaps(1).graph)); }
   test::CommandResult optimiseGraph(const std::string& arguments) const {
     return test::runCommand(std::string(OPTIMISE_GRAPH) + " " + arguments);
   }
   nlohmann::json summary(const std::string& name) const {
-    return nlohmann::json::parse(readFile(folder_ / (name + "/summary.json")));
+    return nlohmann::json::parse(folder_.read(name + "/summary.json"));
   }
 
   TemporaryFolder folder_;
@@ -34,7 +34,7 @@ TEST_F(OptimiseGraphProgram, WritesGraphTrajectoryFiguresAndPicture) {
   EXPECT_LT(json["chi_square_after"], 300.0);
   EXPECT_GT(json["chi_square_before"], json["chi_square_after"]);
   EXPECT_EQ(readTum(folder_ / "optimised/trajectory.tum").size(), 108U);
-  EXPECT_NE(readFile(folder_ / "optimised/graph.svg").find("</svg>"), std::string::npos);
+  EXPECT_NE(folder_.read("optimised/graph.svg").find("</svg>"), std::string::npos);
 
   const auto again = optimiseGraph((folder_ / "optimised/graph.g2o") + " --output " + (folder_ / "again"));
   ASSERT_EQ(again.status, 0) << again.output;
@@ -49,7 +49,7 @@ TEST_F(OptimiseGraphProgram, ListsWhatBecameOfFalseLoops) {
   EXPECT_EQ(json["false_loops_added"], 7);
   EXPECT_EQ(json["false_loops_kept"], 0);
   EXPECT_LT(json["rms_from_clean_optimum_m"], 0.05);
-  const std::string loops = readFile(folder_ / "spoilt/loops.csv");
+  const std::string loops = folder_.read("spoilt/loops.csv");
   EXPECT_EQ(std::count(loops.begin(), loops.end(), '\n'), 1 + 72 + 7);
   EXPECT_NE(loops.find("against the map"), std::string::npos);
 }
