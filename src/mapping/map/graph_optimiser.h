@@ -21,9 +21,9 @@ struct OptimiserParams {
 
 struct OptimiserResult {
   double chi_square_before = 0.0, chi_square_after = 0.0;  ///< without the loss of robust edges
-  int iterations = 0;      ///< steps that were tried
-  bool converged = false;  ///< else max_iterations were not enough
-  bool chordal = false;    ///< whether it began from the chordal start
+  int iterations = 0;                                      ///< steps that were tried
+  bool converged = false;                                  ///< else max_iterations were not enough
+  bool chordal = false;                                    ///< whether it began from the chordal start
 };
 
 /// Which edges count, and how.
