@@ -58,33 +58,37 @@ class DeadReckoning {
   std::vector<Matrix> sums_;
 };
 
-/// A loop with what each comparison needs of it.
+/// A loop as what it moves the map by, C = T_map_to T_from_to^-1 T_map_from^-1 with the odometry's poses: the
+/// same for all loops that agree.
 template <class Pose>
 struct Loop {
+  using Matrix = typename Motion<Pose>::Matrix;
   std::size_t from, to;
-  Pose T_from_to, T_map_from_by_to;  ///< the second: where `from` is by the odometry to `to` and this loop
-  typename Motion<Pose>::Matrix covariance_map;  ///< its own, along the axes of the map, at `to`
+  Pose C, C_inverse;
+  Matrix adjoint;     ///< of C
+  Matrix covariance;  ///< of the loop alone, along the axes of the map
 };
 
 template <class Pose>
 Loop<Pose> makeLoop(const GraphEdge<Pose>& edge, const DeadReckoning<Pose>& odometry) {
-  const auto to_map = Motion<Pose>::adjoint(odometry.pose(edge.to));
-  return {edge.from, edge.to, edge.T_from_to, odometry.pose(edge.to) * edge.T_from_to.inverse(),
+  const Pose C = odometry.pose(edge.to) * edge.T_from_to.inverse() * odometry.pose(edge.from).inverse();
+  const typename Motion<Pose>::Matrix to_map = Motion<Pose>::adjoint(odometry.pose(edge.to));
+  return {edge.from,
+          edge.to,
+          C,
+          C.inverse(),
+          Motion<Pose>::adjoint(C),
           to_map * covarianceOf(edge) * to_map.transpose()};
 }
 
-/// Squared distance of the cycle a^-1, odometry, b, odometry from no motion, in units of its covariance.
-/// Everything is written along the axes of the map: C_x = T_map_from_by_to(x) T_map_from(x)^-1 is what loop x
-/// moves the map by, equal for loops that agree; the noise of b's ways is carried by that motion.
+/// Squared distance of the cycle a^-1, odometry, b, odometry from no motion, in units of its covariance,
+/// along the axes of the map. The way between the loops' beginnings is seen through loop a.
 template <class Pose>
 double disagreement(const Loop<Pose>& a, const Loop<Pose>& b, const DeadReckoning<Pose>& odometry) {
-  using Matrix = typename Motion<Pose>::Matrix;
-  const Pose C_a = a.T_map_from_by_to * odometry.pose(a.from).inverse();
-  const Pose C_b = b.T_map_from_by_to * odometry.pose(b.from).inverse();
-  const auto error = Motion<Pose>::log(Pose(C_a * C_b.inverse()));
-  const Matrix carried = Motion<Pose>::adjoint(C_a);
-  const Matrix from_ways = carried * odometry.between(a.from, b.from) * carried.transpose();
-  const Matrix covariance = a.covariance_map + b.covariance_map + odometry.between(a.to, b.to) + from_ways;
+  const typename Motion<Pose>::Vector error = Motion<Pose>::log(Pose(a.C * b.C_inverse));
+  const typename Motion<Pose>::Matrix covariance =
+      a.covariance + b.covariance + odometry.between(a.to, b.to) +
+      a.adjoint * odometry.between(a.from, b.from) * a.adjoint.transpose();
   return error.dot(covariance.ldlt().solve(error));
 }
 
@@ -124,6 +128,7 @@ void ConsistencyParams::describe(ParameterVisitor& visitor) {
 template <class Pose>
 ConsistentLoops consistentLoops(const PoseGraph<Pose>& graph, const ConsistencyParams& params) {
   ConsistentLoops result;
+  if (graph.poses.empty()) return result;
   const std::vector<bool> is_loop = loopsOf(graph);
   const DeadReckoning<Pose> odometry(graph);
   std::vector<Loop<Pose>> loops;
