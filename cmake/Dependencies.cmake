@@ -13,3 +13,6 @@ find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs features2d video 
 find_package(Threads REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(ZLIB REQUIRED)
+if(STEREO_NAV_MAPPING)
+  find_package(Ceres REQUIRED)
+endif()

@@ -6,7 +6,8 @@
 #
 # KIND: ros, opencv, kalibr, kitti, euroc, rig, times, lists, names, bag; test/fuzz/input_fuzz.cpp says what each reads.
 # Of devices: angles, raw, raw_udp, phone (IMU), laser, tfmini, base; test/fuzz/device_fuzz.cpp.
-# Needs clang and, but for devices, a BUILD_DIR that is built: the readers are compiled anew, all else is taken from there.
+# Of maps: map; test/fuzz/map_fuzz.cpp.
+# Needs clang and, but for devices and maps, a BUILD_DIR that is built: the readers are compiled anew, all else is taken from there.
 # Inputs are kept in BUILD_DIR/fuzz; a finding ends the script with an error and leaves its input there.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -28,6 +29,13 @@ case $kind in
     sources=(test/fuzz/{base_fuzz,device_fuzz,device_fuzz_main}.cpp src/core/roll_pitch_yaw.cpp src/sensors/{serial,laser,range}/*.cpp
       src/sensors/imu/{angle_protocol,angle_gate,datagram_decoder,frame_decoder,module_angles,phone_protocol,raw_protocol}.cpp)
     libraries=()
+    ;;
+  map)
+    longest=60000
+    read -ra includes < <(pkg-config --cflags eigen3 opencv4)
+    includes=(-Iinclude "${includes[@]/#-I/-isystem}")
+    sources=(test/fuzz/{map_fuzz,map_fuzz_main}.cpp src/mapping/map/{map_file,map_sections,visual_map}.cpp src/core/{atomic_file,lie,planar_motion}.cpp)
+    libraries=(z opencv_core)
     ;;
   *)
     longest=60000

@@ -19,7 +19,7 @@ from pathlib import Path
 FIRST_FLOOR_WITH_ROS = 5
 PACKAGE = 'stereo_nav'
 # Folders of headers that any floor may include; those of the standard library and of the system have no folder.
-LIBRARIES = {'Eigen', 'arpa', 'asm', 'boost', 'fmt', 'linux', 'netinet', 'nlohmann', 'opencv2', 'sys', 'yaml-cpp'}
+LIBRARIES = {'Eigen', 'arpa', 'asm', 'boost', 'ceres', 'fmt', 'linux', 'netinet', 'nlohmann', 'opencv2', 'sys', 'yaml-cpp'}
 # Headers that a microcontroller's tools compile, too, which know no rooms: they include those beside them by their bare names.
 ON_A_CONTROLLER = 'src/sensors/base/controller'
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace stereo_nav::eval {
 namespace {
@@ -16,12 +15,6 @@ Eigen::Isometry3d interpolate(const StampedPose& before, const StampedPose& afte
   pose.translation() =
       (1.0 - share) * before.T_world_body.translation() + share * after.T_world_body.translation();
   return pose;
-}
-
-Eigen::Matrix3Xd columns(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Matrix3Xd matrix(3, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) matrix.col(static_cast<Eigen::Index>(i)) = points[i];
-  return matrix;
 }
 
 }  // namespace
@@ -40,16 +33,6 @@ std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory, double tim
   const double after_s = has_after ? after->time_s - time_s : INFINITY;
   if (std::min(before_s, after_s) > params.max_difference_s) return std::nullopt;
   return before_s <= after_s ? std::prev(after)->T_world_body : after->T_world_body;
-}
-
-Eigen::Isometry3d alignRigidly(const std::vector<Eigen::Vector3d>& source,
-                               const std::vector<Eigen::Vector3d>& target) {
-  if (source.empty() || source.size() != target.size()) {
-    throw std::invalid_argument("alignRigidly() needs two lists of equal, nonzero length");
-  }
-  Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
-  T_target_source.matrix() = Eigen::umeyama(columns(source), columns(target), false);
-  return T_target_source;
 }
 
 }  // namespace stereo_nav::eval

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <optional>
-#include <vector>
 
 #include "stereo_nav/core/trajectory.h"
 
@@ -21,12 +20,5 @@ struct AssociationParams {
 /// trajectory does not cover the instant.
 std::optional<Eigen::Isometry3d> poseAt(const Trajectory& trajectory, double time_s,
                                         const AssociationParams& params = {});
-
-/// The rigid motion (no scale) T_target_source that minimises sum |target_i - T_target_source * source_i|^2;
-/// Umeyama, "Least-squares estimation of transformation parameters between two point patterns", PAMI 1991.
-/// Needs as many targets as sources, at least one. Points on a line leave the rotation about it open; the
-/// residual is unaffected.
-Eigen::Isometry3d alignRigidly(const std::vector<Eigen::Vector3d>& source,
-                               const std::vector<Eigen::Vector3d>& target);
 
 }  // namespace stereo_nav::eval

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/point_alignment.h"
 #include "eval/alignment.h"
 #include "eval/consistency.h"
 #include "eval/json_text.h"

@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <vector>
 
+#include "core/point_alignment.h"
 #include "eval/alignment.h"
 #include "stereo_nav/core/trajectory.h"
 

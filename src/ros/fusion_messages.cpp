@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/angles.h"
+#include "core/local_tangent_plane.h"
 #include "core/roll_pitch_yaw.h"
 #include "ros/setup_checks.h"
 #include "stereo_nav/core/lie.h"
@@ -195,15 +195,8 @@ std::vector<Measurement> FusionMessages::convert(std::size_t sensor, const senso
   if (!T_base_antenna || message.status.status < sensor_msgs::NavSatStatus::STATUS_FIX || !fix.allFinite())
     return measurements;
   const Eigen::Vector3d first = first_fix_.emplace(sensor, fix).first->second;
-  // Radii of curvature of WGS 84 along the meridian and across it.
-  constexpr double kRadius_m = 6378137.0, kEccentricity2 = 6.69437999014e-3;
-  const double sine = std::sin(first[0] * kRadPerDeg);
-  const double w = std::sqrt(1.0 - kEccentricity2 * sine * sine);
-  const double meridian_m = kRadius_m * (1.0 - kEccentricity2) / (w * w * w);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.translation() << wrapRadians((fix[1] - first[1]) * kRadPerDeg) * (kRadius_m / w + first[2]) *
-                         std::cos(first[0] * kRadPerDeg),
-      (fix[0] - first[0]) * kRadPerDeg * (meridian_m + first[2]), fix[2] - first[2];
+  T.translation() = eastNorthUp_m(first, fix);
   addPose(sensor, message.header.stamp.toSec(), T, placed(toMatrix<3>(message.position_covariance), 0),
           std::nullopt, measurements);
   return measurements;
