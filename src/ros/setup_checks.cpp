@@ -1,5 +1,9 @@
 #include "ros/setup_checks.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "stereo_nav/core/input_error.h"
 
 namespace stereo_nav::ros_io {
@@ -57,6 +61,13 @@ std::string swappedCameras() {
          "image (negative disparity), which is impossible in a correctly ordered rectified pair; depth and "
          "odometry are wrong. Exchange the two cameras' device numbers (left_device, right_device), plugs or "
          "topics";
+}
+
+std::string wrongRightStamps(double error_s) {
+  return fmt::format(
+      "the stamps of the right images are {:.1f} ms too {}: where the rig moves, the right camera sees the rows of "
+      "another time than it says. The error is taken off; have the driver stamp both cameras in the same way",
+      1e3 * std::abs(error_s), error_s > 0.0 ? "late" : "early");
 }
 
 std::string missingTransform(const std::string& base_frame, const std::string& sensor_frame,

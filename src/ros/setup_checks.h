@@ -24,6 +24,9 @@ bool sameCamera(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo&
 /// Message for images of which left is right.
 std::string swappedCameras();
 
+/// Message for right images whose stamps are constantly off by `error_s`, stamp minus true time.
+std::string wrongRightStamps(double error_s);
+
 /// Message for a missing transform: its name, tf's own error, and a command that publishes it.
 /// `sensor_is_camera` selects the rotation in the example: that of optical axes or that of the body's axes.
 std::string missingTransform(const std::string& base_frame, const std::string& sensor_frame,

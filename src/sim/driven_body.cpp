@@ -114,6 +114,17 @@ bool DrivenBody::tryMotion(Scene& scene, const Eigen::Isometry2d& T_before, cons
   return is_free;
 }
 
+void DrivenBody::holdWalkers(Scene& scene, const Eigen::Isometry2d& T_world_base, double time_s,
+                             double step_s) const {
+  const Polygon outline = footprint_.at(T_world_base.translation(), yawOf(T_world_base));
+  for (std::size_t i = 0; i < scene.solids().size(); ++i) {
+    const Solid& solid = scene.solids()[i];
+    if (solid.waits_m == 0.0 || solid.walk_m.isZero() || !concerns(solid, time_s)) continue;
+    const double next_m = gapTo(outline, solid, time_s + step_s).distance_m;
+    if (next_m < solid.waits_m && next_m < gapTo(outline, solid, time_s).distance_m) scene.hold(i, step_s);
+  }
+}
+
 bool DrivenBody::tryPush(Scene& scene, std::size_t pushed, const Eigen::Vector2d& way_m,
                          double time_s) const {
   const Solid& solid = scene.solids()[pushed];

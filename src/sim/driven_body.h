@@ -19,6 +19,8 @@ class DrivenBody {
   /// is in is always free.
   bool tryMotion(Scene& scene, const Eigen::Isometry2d& T_before, const Eigen::Isometry2d& T_after,
                  double time_s);
+  /// Holds for `step_s` those who would walk towards a robot that stands and are as near as they wait.
+  void holdWalkers(Scene& scene, const Eigen::Isometry2d& T_world_base, double time_s, double step_s) const;
   /// The solids that it touched with the last motion, by their index.
   const std::vector<std::size_t>& touched() const { return touched_; }
 

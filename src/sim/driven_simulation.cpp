@@ -11,6 +11,8 @@ namespace {
 constexpr double kStep_s = 1e-3;
 /// Rounding of times that are sums of steps.
 constexpr double kTiny_s = 1e-7;
+/// m/s and rad/s: slower than this, people take the robot to be standing.
+constexpr double kStands = 0.01;
 
 Eigen::Isometry2d startOf(const DrivenParams& params) {
   Eigen::Isometry2d T = Eigen::Isometry2d::Identity();
@@ -72,6 +74,7 @@ void DrivenSimulation::deliver(DrivenSink& sink) {
 void DrivenSimulation::moveBase() {
   const kinematics::Twist twist = base_.step(kStep_s);
   const Eigen::Isometry2d& before = motion_.T_world_base();
+  if (twist.norm() < kStands) body_.holdWalkers(scene_, before, motion_.time_s(), kStep_s);
   const Eigen::Isometry2d after = before * expPlanar(twist * kStep_s);
   const bool is_free = body_.tryMotion(scene_, before, after, motion_.time_s() + kStep_s);
   motion_.add(is_free ? twist : kinematics::Twist::Zero());

@@ -125,6 +125,7 @@ void Scene::addObject(const ObjectParams& object) {
   solid.walk_m = {object.walk_x_m, object.walk_y_m};
   solid.walk_period_s = object.walk_period_s;
   solid.walk_phase = object.walk_phase;
+  solid.waits_m = object.waits_m;
   solid.from_s = object.from_s;
   solid.to_s = object.to_s;
   solid.movable = object.movable;

@@ -42,6 +42,7 @@ struct ObjectParams {
   double walk_y_m = 0.0;
   double walk_period_s = 10.0;
   double walk_phase = 0.0;  ///< share of the period that has passed at time 0
+  double waits_m = 0.0;     ///< it waits so far from a driven robot that stands in its way; 0: it walks on
   double from_s = -1e9;     ///< it is there from this time on,
   double to_s = 1e9;        ///< until this one
   bool movable = false;     ///< a driven robot pushes it
@@ -117,6 +118,7 @@ struct Solid {
   Eigen::Vector2d walk_m = Eigen::Vector2d::Zero();
   double walk_period_s = 1.0;
   double walk_phase = 0.0;
+  double waits_m = 0.0;
   double from_s = -1e9;  ///< before 0, too: the first exposure begins before its middle
   double to_s = 1e9;
   bool movable = false;
@@ -138,6 +140,10 @@ class Scene {
   std::vector<const Solid*> solidsAt(double time_s) const;
   /// Moves a solid over the floor.
   void move(std::size_t solid, const Eigen::Vector2d& way_m) { solids_[solid].p_world.head<2>() += way_m; }
+  /// Holds one that walks where it is for a moment.
+  void hold(std::size_t solid, double duration_s) {
+    solids_[solid].walk_phase -= duration_s / solids_[solid].walk_period_s;
+  }
   /// Glossy floor first, then panes of glass, which no ray of castRay() meets.
   const std::vector<Mirror>& mirrors() const { return mirrors_; }
 

@@ -35,6 +35,8 @@ void ObjectParams::describe(ParameterVisitor& visitor) {
   visitor.real("walk_y_m", walk_y_m, kPlace, "m", "it walks this far left and back");
   visitor.real("walk_period_s", walk_period_s, {0.1, 1e4}, "s", "time for there and back");
   visitor.real("walk_phase", walk_phase, {0.0, 1.0}, "", "share of the period that has passed at the start");
+  visitor.real("waits_m", waits_m, {0.0, 10.0}, "m",
+               "while it walks it stops this far from a driven robot that stands in its way; 0: it walks on");
   visitor.real("from_s", from_s, {-1e9, 1e9}, "s", "it appears at this time");
   visitor.real("to_s", to_s, {0.0, 1e9}, "s", "it vanishes at this time");
   visitor.flag("movable", movable, "a driven robot pushes it; it does not turn");

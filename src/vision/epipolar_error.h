@@ -31,14 +31,15 @@ class EpipolarError {
   /// px, how far off at() may still be, 3 sigma of the rows in the middle of the image.
   double slack_px() const;
 
+  /// How the row at this pixel goes along with a nod, a roll and another focal length of the right camera.
+  Eigen::Vector3d basis(const Eigen::Vector2d& right_px) const;
+
   /// One match whose right row is `error_px` too low, what at() says included.
   void add(const Eigen::Vector2d& right_px, double error_px);
   /// Draws the conclusion from the matches added.
   void learn();
 
  private:
-  Eigen::Vector3d basis(const Eigen::Vector2d& right_px) const;
-
   EpipolarErrorParams params_;
   StereoCalibration calibration_;
   Eigen::Vector3d coefficients_px_;  ///< row error for (1, x/z, y/z): nod, roll, focal length

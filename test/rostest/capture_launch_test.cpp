@@ -99,5 +99,13 @@ TEST(CaptureLaunch, ACalibrationThatCannotBeReadAndAnImpossibleUrlAreNamed) {
   })) << diagnostics.textOf("Right camera");
 }
 
+// Each is good alone; together they have no baseline.
+TEST(CaptureLaunch, TwoCalibrationsThatMakeNoPairAreNamed) {
+  const CaptureDiagnostics diagnostics("twice");
+  EXPECT_TRUE(spinUntil([&] { return diagnostics.says("Stereo pairs", "baseline"); }))
+      << diagnostics.textOf("Stereo pairs");
+  EXPECT_FALSE(diagnostics.says("Left camera", "calibration"));
+}
+
 }  // namespace
 }  // namespace stereo_nav::test

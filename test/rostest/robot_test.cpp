@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "core/rig_file.h"
+#include "ros/keyframe_message.h"
 #include "rostest/diagnostics_probe.h"
 #include "rostest/graph_probe.h"
 #include "rostest/reconfigure.h"
@@ -53,6 +54,24 @@ TEST(Robot, OdometryFollowsTheTruth) {
       kLongWait_s))
       << probe.odometry.size() << " poses, " << way_m << " m";
   EXPECT_LT(*error_m, 0.05 * way_m + 0.05) << "after " << way_m << " m";
+}
+
+TEST(Robot, KeyframesComeToWhoSubscribes) {
+  std::vector<vision::Keyframe> keyframes;
+  ros::NodeHandle handle;
+  const boost::function<void(const KeyframeConstPtr&)> keep = [&keyframes](const KeyframeConstPtr& message) {
+    EXPECT_EQ(message->header.frame_id, "camera_left_optical");
+    keyframes.push_back(ros_io::toKeyframe(*message));
+  };
+  const ros::Subscriber subscriber = handle.subscribe<Keyframe>("vo/keyframe", 20, keep);
+  ASSERT_TRUE(spinUntil([&keyframes] { return keyframes.size() >= 3; }, kLongWait_s));
+  EXPECT_FALSE(keyframes.front().follows) << "nobody got the one before";
+  for (std::size_t i = 1; i < keyframes.size(); ++i) {
+    EXPECT_TRUE(keyframes[i].follows);
+    EXPECT_GT(keyframes[i].id, keyframes[i - 1].id);
+    EXPECT_GT(keyframes[i].corners.size(), 20u);
+    EXPECT_EQ(keyframes[i].scales(), 2u);
+  }
 }
 
 TEST(Robot, TheMountingIsThatOfTheRigFile) {

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kSpacing_m = 0.05;  ///< of the points of the outline
 constexpr double kStep_s = 0.05;
-constexpr double kStands = 1e-3;  ///< m/s and rad/s
+constexpr double kRounding_m = 1e-3;  ///< little, or it would creep over unseen ground
+constexpr double kAhead_rad = 1.0;    ///< to either side, of what counts as ahead
+constexpr double kStands = 1e-3;      ///< m/s and rad/s
 constexpr double kMostBraking_s = 3.0;
 
 void addSide(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::vector<Eigen::Vector2d>& points) {
@@ -24,6 +26,10 @@ void MotionCheckParams::describe(ParameterVisitor& visitor) {
   visitor.real("horizon_s", horizon_s, {0.1, 5.0}, "s", "for so long the coming motion is checked");
   visitor.real("margin_m", margin_m, {0.0, 1.0}, "m", "kept free around the base");
   visitor.flag("into_unseen", into_unseen, "whether the base may move where nothing has been seen");
+  visitor.real(
+      "blind_zone_m", blind_zone_m, {0.0, 3.0}, "m",
+      "floor ahead of base_link that is nearer than this counts as seen, unless something was seen there: for "
+      "a robot whose cameras do not see it and that has no laser; 0: it does not");
 }
 
 MotionCheck::MotionCheck(const MotionCheckParams& params, const control::DriveModelParams& drive)
@@ -32,7 +38,7 @@ MotionCheck::MotionCheck(const MotionCheckParams& params, const control::DriveMo
   const double x_m = 0.5 * params.length_m + params.margin_m, y_m = 0.5 * params.width_m + params.margin_m;
   const Eigen::Vector2d corners[] = {{x_m, y_m}, {-x_m, y_m}, {-x_m, -y_m}, {x_m, -y_m}};
   for (int i = 0; i < 4; ++i) addSide(corners[i], corners[(i + 1) % 4], outline_);
-  circle_m_ = std::hypot(x_m, y_m) + kSpacing_m;
+  circle_m_ = std::hypot(x_m, y_m) + kRounding_m;
 }
 
 MotionCheck::Result MotionCheck::check(const control::DriveState& state, const control::Twist& command,
@@ -60,13 +66,12 @@ std::vector<bool> MotionCheck::touching(const Eigen::Isometry2d& T_odom_base,
 MotionCheck::Finding MotionCheck::along(const control::DriveState& state, const control::Twist& command,
                                         const Surroundings& surroundings,
                                         const std::vector<bool>& touches) const {
-  const Eigen::Vector2d start = state.T_world_base.translation();
   // Until the command acts, the base moves on as it does.
   control::DriveState moving = control::advanced(drive_, state, state.twist, drive_.dead_time_s);
   for (double time_s = 0.0; time_s < params_.horizon_s + kMostBraking_s; time_s += kStep_s) {
     const bool braking = time_s >= params_.horizon_s;
     moving = control::advanced(drive_, moving, braking ? control::Twist::Zero() : command, kStep_s);
-    const Finding finding = at(moving.T_world_base, start, surroundings, touches);
+    const Finding finding = at(moving.T_world_base, state.T_world_base, surroundings, touches);
     if (finding != Finding::kClear) return finding;
     if (braking && moving.twist.norm() < kStands) break;
   }
@@ -76,16 +81,23 @@ MotionCheck::Finding MotionCheck::along(const control::DriveState& state, const 
   return std::count(at_end.begin(), at_end.end(), true) < before ? Finding::kClear : Finding::kObstacle;
 }
 
-MotionCheck::Finding MotionCheck::at(const Eigen::Isometry2d& T_odom_base, const Eigen::Vector2d& start,
-                                     const Surroundings& surroundings,
+bool MotionCheck::isGranted(const Eigen::Vector2d& p_start) const {
+  const double distance_m = p_start.norm();
+  return distance_m <= circle_m_ ||
+         (distance_m <= params_.blind_zone_m && std::abs(std::atan2(p_start.y(), p_start.x())) < kAhead_rad);
+}
+
+MotionCheck::Finding MotionCheck::at(const Eigen::Isometry2d& T_odom_base,
+                                     const Eigen::Isometry2d& T_odom_start, const Surroundings& surroundings,
                                      const std::vector<bool>& touches) const {
+  const Eigen::Isometry2d T_start_base = T_odom_start.inverse() * T_odom_base;
   for (std::size_t i = 0; i < outline_.size(); ++i) {
     if (touches[i]) continue;
     const Eigen::Vector2d p_odom = T_odom_base * outline_[i];
     const Place place = surroundings.at(p_odom);
     if (place == Place::kOccupied) return Finding::kObstacle;
-    const bool new_ground = (p_odom - start).norm() > circle_m_;
-    if (place == Place::kUnseen && new_ground && !params_.into_unseen) return Finding::kUnseen;
+    if (place == Place::kUnseen && !params_.into_unseen && !isGranted(T_start_base * outline_[i]))
+      return Finding::kUnseen;
   }
   return Finding::kClear;
 }

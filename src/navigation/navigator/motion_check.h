@@ -18,6 +18,8 @@ struct MotionCheckParams {
   /// Whether it may move where nothing has been seen: for a robot that is watched, or whose sensors see all
   /// around.
   bool into_unseen = false;
+  /// Floor ahead that is nearer to base_link than this counts as seen, for cameras that do not see it.
+  double blind_zone_m = 0.0;
 
   void describe(ParameterVisitor& visitor);
 };
@@ -44,8 +46,12 @@ class MotionCheck {
   std::vector<bool> touching(const Eigen::Isometry2d& T_odom_base, const Surroundings& surroundings) const;
   Finding along(const control::DriveState& state, const control::Twist& command,
                 const Surroundings& surroundings, const std::vector<bool>& touches) const;
-  Finding at(const Eigen::Isometry2d& T_odom_base, const Eigen::Vector2d& start,
+  /// `T_odom_start`: where the base is now.
+  Finding at(const Eigen::Isometry2d& T_odom_base, const Eigen::Isometry2d& T_odom_start,
              const Surroundings& surroundings, const std::vector<bool>& touches) const;
+  /// Whether a place counts as seen though nobody has looked there: the base stands on it, or it is its blind
+  /// zone.
+  bool isGranted(const Eigen::Vector2d& p_start) const;
 
   MotionCheckParams params_;
   control::DriveModelParams drive_;

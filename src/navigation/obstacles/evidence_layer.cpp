@@ -13,9 +13,11 @@ constexpr std::uint8_t kSeenFree = 1, kSeenOccupied = 2;
 
 }  // namespace
 
-EvidenceLayer::EvidenceLayer(int side_cells, double memory_s)
+EvidenceLayer::EvidenceLayer(int side_cells, double memory_s, int near_cells, double near_memory_s)
     : side_(side_cells),
       memory_s_(memory_s),
+      near_cells_(near_cells),
+      near_memory_s_(near_memory_s),
       cells_(static_cast<std::size_t>(side_cells * side_cells)),
       shifted_(cells_.size()) {}
 
@@ -50,16 +52,24 @@ void EvidenceLayer::seeFree(grid::Cell cell) {
   if (contains(cell)) at(cell).look |= kSeenFree;
 }
 
+bool EvidenceLayer::isNear(std::size_t cell) const {
+  const int x = static_cast<int>(cell) % side_ - side_ / 2;
+  const int y = static_cast<int>(cell) / side_ - side_ / 2;
+  return x * x + y * y < near_cells_ * near_cells_;
+}
+
 void EvidenceLayer::endLook() {
   const auto now = static_cast<float>(now_s_ - first_s_);
   const auto memory = static_cast<float>(memory_s_);
-  for (Cell& cell : cells_) {
+  const auto near_memory = static_cast<float>(near_memory_s_);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    Cell& cell = cells_[i];
     if (cell.look != 0) {
       const int step = (cell.look & kSeenOccupied) != 0 ? kOccupiedStep : kFreeStep;
       cell.log_odds = static_cast<std::int8_t>(std::clamp(cell.log_odds + step, kLeast, kMost));
       cell.seen_s = now;
       cell.look = 0;
-    } else if (now - cell.seen_s > memory) {
+    } else if (now - cell.seen_s > memory && (now - cell.seen_s > near_memory || !isNear(i))) {
       cell.log_odds = 0;
     }
   }

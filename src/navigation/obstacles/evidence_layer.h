@@ -12,7 +12,9 @@ namespace stereo_nav::navigation {
 /// the world; the window follows the robot by whole cells.
 class EvidenceLayer {
  public:
-  EvidenceLayer(int side_cells, double memory_s);
+  /// What lies within `near_cells` of the middle of the window, where the robot is, is remembered for
+  /// `near_memory_s`: the sensors may not see it any more, and it has not gone for that.
+  EvidenceLayer(int side_cells, double memory_s, int near_cells = 0, double near_memory_s = 0.0);
 
   void clearAll();
   /// Moves the window by so many cells; what leaves it is forgotten.
@@ -38,10 +40,13 @@ class EvidenceLayer {
   bool contains(grid::Cell cell) const {
     return cell.x >= 0 && cell.y >= 0 && cell.x < side_ && cell.y < side_;
   }
+  bool isNear(std::size_t cell) const;
   Cell& at(grid::Cell cell) { return cells_[static_cast<std::size_t>(cell.y * side_ + cell.x)]; }
 
   int side_;
   double memory_s_;
+  int near_cells_;
+  double near_memory_s_;
   double first_s_ = 0.0, now_s_ = 0.0;
   bool any_look_ = false;
   std::vector<Cell> cells_, shifted_;

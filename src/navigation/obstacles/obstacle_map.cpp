@@ -11,15 +11,20 @@ int cellsOfSide(const ObstacleParams& params) {
   return static_cast<int>(std::lround(params.size_m / params.resolution_m));
 }
 
+EvidenceLayer layerOf(const ObstacleParams& params) {
+  return {cellsOfSide(params), params.memory_s,
+          static_cast<int>(std::lround(params.near_m / params.resolution_m)), params.near_memory_s};
+}
+
 }  // namespace
 
 ObstacleMap::ObstacleMap(const ObstacleParams& params)
     : params_(params),
       columns_(params),
       edges_(params),
-      stereo_(cellsOfSide(params), params.memory_s),
-      scan_(cellsOfSide(params), params.memory_s),
-      ranges_(cellsOfSide(params), params.memory_s) {
+      stereo_(layerOf(params)),
+      scan_(layerOf(params)),
+      ranges_(layerOf(params)) {
   grid::GridGeometry geometry;
   geometry.width = geometry.height = cellsOfSide(params);
   geometry.resolution_m = params.resolution_m;

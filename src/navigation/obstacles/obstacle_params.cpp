@@ -20,6 +20,11 @@ void ObstacleParams::describe(ParameterVisitor& visitor) {
   visitor.integer("column_px", column_px, {1, 16}, "px", "columns of the image that are looked at together");
   visitor.real("memory_s", memory_s, {0.5, 600.0}, "s",
                "a cell that no sensor has looked at for this long is unknown again");
+  visitor.real(
+      "near_m", near_m, {0.0, 10.0}, "m",
+      "nearer to the robot than this, where cameras may not see what they saw before, near_memory_s counts");
+  visitor.real("near_memory_s", near_memory_s, {0.0, 3600.0}, "s",
+               "the same, near the robot, if it is longer");
 }
 
 }  // namespace stereo_nav::navigation

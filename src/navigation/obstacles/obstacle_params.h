@@ -16,6 +16,7 @@ struct ObstacleParams {
   double max_tilt_deg = 2.0;
   int column_px = 2;
   double memory_s = 10.0;
+  double near_m = 1.5, near_memory_s = 60.0;
 
   void describe(ParameterVisitor& visitor);
 };

@@ -4,7 +4,6 @@
 #include <geometry_msgs/Twist.h>
 
 #include "core/planar_motion.h"
-#include "grid/footprint.h"
 #include "ros/parameter_server.h"
 #include "stereo_nav/core/input_error.h"
 
@@ -24,12 +23,7 @@ NavigatorNodeParams readNavigatorParams(const ros::NodeHandle& private_handle) {
   ros_io::readParameters({ros_io::fileSource(private_handle, "config"),
                           ros_io::serverSource(private_handle, {"diagnostic_period"})},
                          params);
-  // One outline for all: the check of the coming motion takes the rectangle that holds it.
-  Eigen::Vector2d half = Eigen::Vector2d::Zero();
-  const grid::Footprint footprint = params.planner.makeFootprint();
-  for (const auto& corner : footprint.corners()) half = half.cwiseMax(corner.cwiseAbs());
-  params.navigator.check.length_m = 2.0 * half.x();
-  params.navigator.check.width_m = 2.0 * half.y();
+  params.shareOutline();
   return params;
 }
 

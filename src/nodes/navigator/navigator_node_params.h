@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "grid/footprint.h"
 #include "navigation/navigator/navigator.h"
 #include "navigation/planner/planner_params.h"
 #include "stereo_nav/ros/topics.h"
@@ -25,6 +26,15 @@ struct NavigatorNodeParams {
                  "it stops when the transform from the map to the odometry's frame is older");
     navigator.describe(visitor);
     visitSection(visitor, "planner", planner);
+  }
+  /// One outline for all: the check of the coming motion takes the rectangle that holds that of the planner.
+  /// Throws InputError.
+  void shareOutline() {
+    Eigen::Vector2d half = Eigen::Vector2d::Zero();
+    const grid::Footprint footprint = planner.makeFootprint();
+    for (const auto& corner : footprint.corners()) half = half.cwiseMax(corner.cwiseAbs());
+    navigator.check.length_m = 2.0 * half.x();
+    navigator.check.width_m = 2.0 * half.y();
   }
 };
 

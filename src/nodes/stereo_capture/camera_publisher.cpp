@@ -44,6 +44,12 @@ void CameraPublisher::publish(camera::Frame& frame, const ros::Time& stamp) {
   publisher_.publish(image, info);
 }
 
+sensor_msgs::CameraInfo CameraPublisher::calibration() {
+  sensor_msgs::CameraInfo info = calibration_.getCameraInfo();
+  info.header.frame_id = frame_id_;
+  return info;
+}
+
 std::string CameraPublisher::calibrationWarning() const {
   if (url_.rfind(kPackageUrl, 0) != 0) return {};
   return name_ + " camera: " + url_ +

@@ -26,6 +26,8 @@ class CameraPublisher {
 
   /// The problem with the calibration for images of this size, with the remedy; empty when there is none.
   std::string calibrationProblem(int width, int height);
+  /// The calibration, with the frame of the images.
+  sensor_msgs::CameraInfo calibration();
   /// A warning about a calibration that is valid in itself, with the remedy; empty when there is none.
   std::string calibrationWarning() const;
 

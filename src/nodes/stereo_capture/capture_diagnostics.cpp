@@ -83,6 +83,8 @@ void CaptureDiagnostics::describePairs(Status& status) {
         "Many images have no partner: raise max_time_offset_s to half the time between images, and see that both "
         "cameras run at the same rate");
   }
+  const std::string pair_problem = sources_.pair_problem();
+  if (!pair_problem.empty()) status.mergeSummary(DiagnosticStatus::ERROR, pair_problem);
   status.addf("Rate (Hz)", "%.2f", stereo.pair_rate_hz);
   status.add("Pairs", stereo.pairing.pairs);
   status.add("Left images without partner", alone[0]);

@@ -20,6 +20,8 @@ class CaptureDiagnostics {
     /// The problem with a camera's calibration; empty when there is none.
     std::function<std::string(camera::Side)> calibration_problem;
     std::function<std::string(camera::Side)> calibration_warning;
+    /// What is wrong with two calibrations that are each usable alone; empty when nothing is.
+    std::function<std::string()> pair_problem;
     double wanted_rate_hz = 0.0;
   };
 

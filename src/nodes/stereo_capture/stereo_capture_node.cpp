@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "core/rig_file.h"
+#include "ros/judged_infos.h"
 #include "ros/parameter_server.h"
 #include "stereo_nav/StereoSync.h"
+#include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::nodes {
@@ -63,9 +65,8 @@ StereoCaptureNode::StereoCaptureNode(const ros::NodeHandle& handle, const ros::N
   }
   CaptureDiagnostics::Sources sources;
   sources.status = [this] { return camera_->status(); };
-  sources.calibration_problem = [this](camera::Side side) {
-    return publisherOf(side).calibrationProblem(params_.width, params_.height);
-  };
+  sources.calibration_problem = [this](camera::Side side) { return calibrationProblem(side); };
+  sources.pair_problem = [this] { return pairProblem(); };
   sources.calibration_warning = [this](camera::Side side) { return publisherOf(side).calibrationWarning(); };
   for (const camera::Side side : {camera::Side::kLeft, camera::Side::kRight}) {
     const std::string warning = sources.calibration_warning(side);
@@ -138,16 +139,29 @@ void StereoCaptureNode::applyLive(const camera::CaptureParams& params) {
 }
 
 void StereoCaptureNode::handleTimer(const ros::WallTimerEvent&) {
-  tellCalibrationProblem(camera::Side::kLeft);
-  tellCalibrationProblem(camera::Side::kRight);
+  for (const camera::Side side : {camera::Side::kLeft, camera::Side::kRight}) {
+    const std::string name = camera::sideName(side);
+    tell(name, calibrationProblem(side), name + " camera: calibrated now");
+  }
+  tell("pair", pairProblem(), "the two calibrations are those of a stereo pair now");
   diagnostics_->update();
 }
 
-void StereoCaptureNode::tellCalibrationProblem(camera::Side side) {
-  const std::string problem = publisherOf(side).calibrationProblem(params_.width, params_.height);
-  const std::string key = camera::sideName(side);
+std::string StereoCaptureNode::pairProblem() {
+  if (!calibrationProblem(camera::Side::kLeft).empty() || !calibrationProblem(camera::Side::kRight).empty())
+    return {};
+  try {
+    ros_io::judgeInfos(left_publisher_.calibration(), right_publisher_.calibration());
+    return {};
+  } catch (const InputError& error) {
+    return std::string("the calibrations of the two cameras: ") + error.what() +
+           ". Raw images are published nevertheless, nothing is rectified";
+  }
+}
+
+void StereoCaptureNode::tell(const std::string& key, const std::string& problem, const std::string& solved) {
   if (problem.empty()) {
-    if (problems_.clear(key)) ROS_INFO("%s camera: calibrated now", key.c_str());
+    if (problems_.clear(key)) ROS_INFO_STREAM(solved);
   } else if (problems_.raise(key, false, problem, ros::WallTime::now().toSec())) {
     ROS_ERROR_STREAM(problem);
   }

@@ -30,7 +30,13 @@ class StereoCaptureNode {
   void followSystemClock();
   void applyLive(const camera::CaptureParams& params);
   void handleTimer(const ros::WallTimerEvent&);
-  void tellCalibrationProblem(camera::Side side);
+  /// Says a problem when it comes up, and again from time to time, and when it is over.
+  void tell(const std::string& key, const std::string& problem, const std::string& solved);
+  std::string calibrationProblem(camera::Side side) {
+    return publisherOf(side).calibrationProblem(params_.width, params_.height);
+  }
+  /// Why the two calibrations are none of a stereo pair; empty when they are, or when one is unusable alone.
+  std::string pairProblem();
   CameraPublisher& publisherOf(camera::Side side) {
     return side == camera::Side::kLeft ? left_publisher_ : right_publisher_;
   }

@@ -12,6 +12,7 @@
 
 #include "core/angles.h"
 #include "nodes/visual_odometry/debug_views.h"
+#include "ros/keyframe_message.h"
 #include "ros/pose_messages.h"
 
 namespace stereo_nav::nodes {
@@ -45,6 +46,7 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle& handle, const VisualOdomet
       path_publisher_(handle.advertise<nav_msgs::Path>("path", 1)),
       status_publisher_(handle.advertise<VoStatus>("vo/status", 50)),
       features_publisher_(handle.advertise<sensor_msgs::PointCloud2>("vo/features", 5)),
+      keyframe_publisher_(handle.advertise<Keyframe>("vo/keyframe", 20)),
       image_transport_(handle),
       debug_publisher_(image_transport_.advertise("vo/debug_image", 2)) {
   path_.header.frame_id = params_.odom_frame;
@@ -54,7 +56,9 @@ void OdometryPublisher::publish(const ros_io::FrameMessages& frame, const Sessio
                                 const FrameCounts& counts) {
   if (output.processed) publishOdometry(frame, output.base);
   publishStatus(frame, output, counts);
-  if (output.processed) publishViews(frame, output);
+  if (!output.processed) return;
+  publishKeyframe(frame, output);
+  publishViews(frame, output);
 }
 
 void OdometryPublisher::publishOdometry(const ros_io::FrameMessages& frame,
@@ -111,8 +115,8 @@ void OdometryPublisher::publishStatus(const ros_io::FrameMessages& frame, const 
   status->reprojection_error_px = static_cast<float>(result.reprojection_error_px);
   status->skew_s = (frame.right_stamp - frame.left_stamp).toSec();
   status->skew_compensated = static_cast<std::uint8_t>(result.time_offset_compensated);
-  status->right_offset_s = nan;
-  status->right_offset_sigma_s = nan;
+  status->right_offset_s = static_cast<float>(result.right_stamp_error_s);
+  status->right_offset_sigma_s = static_cast<float>(result.right_stamp_sigma_s);
   status->imu_offset_s = nan;
   status->imu_offset_sigma_s = nan;
   status->rotation_disagreement_deg = static_cast<float>(result.rotation_disagreement_rad * kDegPerRad);
@@ -124,6 +128,18 @@ void OdometryPublisher::publishStatus(const ros_io::FrameMessages& frame, const 
   status->frames_dropped = counts.dropped;
   status->frames_lost = counts.lost;
   status_publisher_.publish(status);
+}
+
+void OdometryPublisher::publishKeyframe(const ros_io::FrameMessages& frame, const SessionOutput& output) {
+  if (keyframe_publisher_.getNumSubscribers() == 0) {
+    keyframe_maker_.pause();
+    return;
+  }
+  const auto keyframe = keyframe_maker_.add(output.images, output.result);
+  if (!keyframe) return;
+  auto message = boost::make_shared<Keyframe>(ros_io::toMessage(*keyframe, frame.left->header.frame_id));
+  message->header.stamp = frame.left_stamp;
+  keyframe_publisher_.publish(message);
 }
 
 void OdometryPublisher::publishViews(const ros_io::FrameMessages& frame, const SessionOutput& output) {

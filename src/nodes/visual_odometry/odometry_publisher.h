@@ -9,6 +9,7 @@
 #include <string>
 
 #include "nodes/visual_odometry/odometry_session.h"
+#include "odometry/method/keyframe_maker.h"
 #include "ros/odom_transform_publisher.h"
 #include "stereo_nav/VoStatus.h"
 
@@ -21,8 +22,8 @@ struct FrameCounts {
   std::uint64_t lost = 0;
 };
 
-/// Publishes the odometry's result of a frame. Images, cloud and path are published only if there are
-/// subscribers.
+/// Publishes the odometry's result of a frame. Images, cloud, keyframes and path are published only if there
+/// are subscribers.
 class OdometryPublisher {
  public:
   OdometryPublisher(ros::NodeHandle& handle, const VisualOdometryParams& params);
@@ -37,6 +38,7 @@ class OdometryPublisher {
   void publishPath(const std_msgs::Header& header, const geometry_msgs::Pose& pose);
   void publishStatus(const ros_io::FrameMessages& frame, const SessionOutput& output,
                      const FrameCounts& counts);
+  void publishKeyframe(const ros_io::FrameMessages& frame, const SessionOutput& output);
   void publishViews(const ros_io::FrameMessages& frame, const SessionOutput& output);
 
   VisualOdometryParams params_;
@@ -44,6 +46,8 @@ class OdometryPublisher {
   ros::Publisher path_publisher_;
   ros::Publisher status_publisher_;
   ros::Publisher features_publisher_;
+  ros::Publisher keyframe_publisher_;
+  odometry::KeyframeMaker keyframe_maker_;
   image_transport::ImageTransport image_transport_;
   image_transport::Publisher debug_publisher_;
   ros_io::OdomTransformPublisher transform_publisher_;

@@ -52,6 +52,7 @@ SessionOutput OdometrySession::process(const ros_io::Inbox::Work& work, const Se
   ++frames_processed_;
   if (!odometry::isMeasured(output.result.state)) ++frames_lost_;
   checkCameraOrder(output);
+  checkRightStamps(output);
   checkImu(output);
   return output;
 }
@@ -243,6 +244,11 @@ void OdometrySession::checkCameraOrder(SessionOutput& output) {
   }
   if (camera_order_->verdict() != vision::CameraOrderCheck::Verdict::kSwapped) return;
   output.warnings["camera_order"] = ros_io::swappedCameras();
+}
+
+void OdometrySession::checkRightStamps(SessionOutput& output) {
+  if (output.result.right_stamps_are_corrected)
+    output.warnings["right_stamps"] = ros_io::wrongRightStamps(output.result.right_stamp_error_s);
 }
 
 void OdometrySession::checkImu(SessionOutput& output) {

@@ -80,6 +80,7 @@ class OdometrySession {
   void level(double time_s, SessionOutput& output);
   bool readImages(const ros_io::FrameMessages& frame, SessionOutput& output) const;
   void checkCameraOrder(SessionOutput& output);
+  void checkRightStamps(SessionOutput& output);
   void checkImu(SessionOutput& output);
 
   VisualOdometryParams params_;

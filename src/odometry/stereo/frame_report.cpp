@@ -1,11 +1,16 @@
 #include "odometry/stereo/frame_report.h"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "vision/pixel.h"
 
 namespace stereo_nav::odometry {
 namespace {
+
+/// The errors of a feature are much the same in so many views that follow each other.
+constexpr double kDependentViews = 3.0;
 
 FeatureReport::Fate fate(const Track& track) {
   if (track.fresh) return FeatureReport::Fate::kDetected;
@@ -27,6 +32,24 @@ void reportTracks(const std::vector<Track>& tracks, const Eigen::Isometry3d& T_c
     report.p_camera = T_camera_world * track.p_world;
     if (report.fate == FeatureReport::Fate::kInlier) ++result.inliers;
     result.features.push_back(report);
+  }
+}
+
+void reportKeyframe(const std::vector<Track>& tracks, const LocalMap& map,
+                    const vision::StereoCalibration& calibration, FrameResult& result) {
+  // Features are those of the found tracks, in their order.
+  auto track = tracks.begin();
+  for (FeatureReport& feature : result.features) {
+    while (!track->found) ++track;
+    const Track& source = *track++;
+    feature.stamp_px = vision::toCv(source.at_stamp.left_px);
+    const Landmark* landmark = map.find(source.landmark_id);
+    if (landmark == nullptr || landmark->views.empty() || feature.p_camera.z() < vision::kNearestDepth_m)
+      continue;
+    feature.disparity_px = calibration.fx * calibration.baseline_m / feature.p_camera.z();
+    const double views = std::max(1.0, static_cast<double>(landmark->views.size()) / kDependentViews);
+    feature.disparity_sigma_px =
+        vision::kPixelSigma_px * landmark->views.back().seen.noise * std::sqrt(2.0 / views);
   }
 }
 

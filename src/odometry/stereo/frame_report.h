@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "odometry/stereo/local_map.h"
 #include "odometry/stereo/track.h"
 #include "stereo_nav/odometry/common/odometry.h"
 
@@ -11,6 +12,11 @@ namespace stereo_nav::odometry {
 /// that had one.
 void reportTracks(const std::vector<Track>& tracks, const Eigen::Isometry3d& T_camera_world,
                   FrameResult& result);
+
+/// Adds to the features of a keyframe where a global shutter would have seen them, and their disparities by
+/// the map, with standard deviations.
+void reportKeyframe(const std::vector<Track>& tracks, const LocalMap& map,
+                    const vision::StereoCalibration& calibration, FrameResult& result);
 
 /// Why a frame is lost or a map could not begin.
 std::string tooFewLandmarks(std::size_t landmarks, int needed);

@@ -29,18 +29,41 @@ void RightImageMatcher::match(const StereoImages& images, const vision::StereoVi
   track.in_image.has_right = true;
 }
 
+namespace {
+
+/// Whether rows are learned from this track; its residual in `view`.
+bool teaches(const vision::StereoCalibration& calibration, const vision::StereoView& view, const Track& track,
+             vision::ViewResidual& residual) {
+  return track.inlier && track.at_stamp.has_right && track.at_stamp.noise <= 1.0 &&
+         vision::viewResidual(calibration, view, track.p_world, track.at_stamp, residual);
+}
+
+}  // namespace
+
 void RightImageMatcher::learnRows(const vision::StereoView& view, const std::vector<Track>& tracks) {
   vision::EpipolarError& rows = stereo_.epipolarError();
+  vision::ViewResidual residual;
   for (const Track& track : tracks) {
-    const vision::StereoObservation& seen = track.at_stamp;
-    vision::ViewResidual residual;
-    if (!track.inlier || !seen.has_right || seen.noise > 1.0 ||
-        !vision::viewResidual(calibration_, view, track.p_world, seen, residual))
-      continue;
+    if (!teaches(calibration_, view, track, residual)) continue;
     const Eigen::Vector2d& px = track.in_image.right_px;
     rows.add(px, residual.error_px(3) - residual.error_px(1) + rows.at(px).y());
   }
   rows.learn();
+}
+
+void RightImageMatcher::learnStamps(const vision::StereoView& view, const Vector6d& twist,
+                                    double right_offset_s, const std::vector<Track>& tracks) {
+  const vision::EpipolarError& rows = stereo_.epipolarError();
+  // The motion between the images by the stamps, not the one that the images themselves have told.
+  const vision::StereoView by_stamps{view.T_camera_world, expMotion(twist * right_offset_s)};
+  vision::ViewResidual residual;
+  for (const Track& track : tracks) {
+    if (!teaches(calibration_, by_stamps, track, residual)) continue;
+    const Eigen::Vector2d& px = track.in_image.right_px;
+    stamp_error_.add(rows.basis(px), residual.error_px(3) - residual.error_px(1) + rows.at(px).y(),
+                     residual.by_late.row(1).dot(twist));
+  }
+  stamp_error_.learn();
 }
 
 void RightImageMatcher::learnRowsAtStart(std::vector<NewLandmark>& matches) {

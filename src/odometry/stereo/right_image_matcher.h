@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "odometry/stereo/right_stamp_error.h"
 #include "odometry/stereo/stereo_images.h"
 #include "odometry/stereo/track.h"
 #include "odometry/stereo/window_optimizer.h"
@@ -41,13 +42,21 @@ class RightImageMatcher {
 
   /// Learns the displacement of the rows from the inliers of a frame with this refined pose.
   void learnRows(const vision::StereoView& view, const std::vector<Track>& tracks);
+  /// Learns from them what is constantly wrong with the right stamps. `twist` is that of the world in the
+  /// left camera's frame, m/s and rad/s, and the right image was taken `right_offset_s` after the left one by
+  /// its stamp.
+  void learnStamps(const vision::StereoView& view, const Vector6d& twist, double right_offset_s,
+                   const std::vector<Track>& tracks);
   /// The same from the matches of a first frame whose two images have one stamp; these matches are corrected
   /// by what was learned.
   void learnRowsAtStart(std::vector<NewLandmark>& matches);
 
+  RightStampError& stampError() { return stamp_error_; }
+
  private:
   vision::StereoCalibration calibration_;
   vision::SparseStereoMatcher stereo_;
+  RightStampError stamp_error_;
 };
 
 }  // namespace stereo_nav::odometry

@@ -25,10 +25,11 @@ struct FrameTimes {
 
 /// The two images of a frame, with their times.
 struct StereoImages {
-  StereoImages(const StereoFrame& frame, int pyramid_levels)
+  /// `right_stamp_error_s` is taken off the right image's time.
+  StereoImages(const StereoFrame& frame, int pyramid_levels, double right_stamp_error_s = 0.0)
       : left(frame.left, pyramid_levels),
         right(frame.right, pyramid_levels),
-        times(frame.left_time_s, frame.right_time_s) {}
+        times(frame.left_time_s, frame.right_time_s - right_stamp_error_s) {}
 
   vision::ImagePyramid left;
   vision::ImagePyramid right;

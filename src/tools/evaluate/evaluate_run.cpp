@@ -8,12 +8,12 @@
 #include "core/base_pose.h"
 #include "core/rig_file.h"
 #include "odometry/method/watched_odometry.h"
-#include "ros/imu_checks.h"
 #include "ros/package_files.h"
 #include "ros/setup_checks.h"
 #include "ros/stereo_processing.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/ros/topics.h"
+#include "tools/common/recorded_rig.h"
 #include "tools/evaluate/recorded_disparity.h"
 #include "tools/evaluate/relative_covariance.h"
 #include "vision/camera_order.h"
@@ -27,57 +27,6 @@ constexpr std::size_t kFramesBetweenOrderChecks = 10;
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// The transform that the recording must hold.
-Eigen::Isometry3d requireTransform(const ros_io::Recording& recording, const std::string& bag,
-                                   const char* target, const std::string& source) {
-  const auto transform = recording.transform(target, source);
-  if (transform) return *transform;
-  throw InputError(
-      bag + ": tf_static has no transform from " + target + " to '" + source +
-      "'; record /tf_static too, with a publisher such as `rosrun tf2_ros static_transform_publisher x y z "
-      "yaw pitch roll " +
-      target + " " + source + "`");
-}
-
-/// Where the IMU sits, and why it is set aside where that cannot be known.
-struct ImuMounting {
-  Eigen::Matrix3d R_base_imu = Eigen::Matrix3d::Identity();
-  std::string problem;  ///< empty: it is used
-};
-
-ImuMounting imuMounting(const ros_io::Recording& recording) {
-  ImuMounting mounting;
-  // The thesis' header-less orientation is front-left-up: that of base_link.
-  if (recording.imu().empty() || !recording.imuFrame()) return mounting;
-  mounting.problem =
-      ros_io::imuStampProblem(recording.imu(), recording.firstLeft_s(), recording.lastLeft_s());
-  if (!mounting.problem.empty()) return mounting;
-  const std::string& frame = *recording.imuFrame();
-  const auto T_base_imu = frame.empty() ? std::nullopt : recording.transform(ros_io::frames::kBase, frame);
-  if (T_base_imu) {
-    mounting.R_base_imu = T_base_imu->linear();
-  } else {
-    mounting.problem = ros_io::missingImuFrame(frame);
-  }
-  return mounting;
-}
-
-Trajectory groundTruthOfBase(const EvaluateOptions& options, const ros_io::Recording& recording) {
-  ros_io::Recording::GroundTruth truth;
-  if (options.ground_truth && std::filesystem::exists(*options.ground_truth)) {
-    truth.trajectory = readTum(*options.ground_truth);
-  } else {
-    truth = recording.groundTruth(options.ground_truth.value_or(ros_io::topics::kGroundTruth),
-                                  options.ground_truth.has_value());
-  }
-  std::string frame = options.ground_truth_frame.value_or(truth.body_frame);
-  if (frame.empty()) frame = ros_io::frames::kBase;
-  if (truth.trajectory.empty() || frame == ros_io::frames::kBase) return truth.trajectory;
-  const Eigen::Isometry3d T_base_body =
-      requireTransform(recording, options.bag, ros_io::frames::kBase, frame);
-  return ofOtherBody(truth.trajectory, T_base_body.inverse());
 }
 
 PoseParams poseParams(const EvaluateOptions& options) {
@@ -95,7 +44,8 @@ class Run {
  public:
   Run(const ros_io::Recording& recording, const ros_io::StereoProcessing& processing,
       const odometry::OdometryConfig& config, const std::optional<std::string>& disparity_bag,
-      const Eigen::Isometry3d& T_base_camera, const PoseParams& pose_params, const ImuMounting& imu)
+      const Eigen::Isometry3d& T_base_camera, const PoseParams& pose_params, const ImuMounting& imu,
+      double right_stamp_error_s)
       : recording_(recording),
         processing_(processing),
         config_(config),
@@ -103,7 +53,9 @@ class Run {
         uncertainty_(pose_params, T_base_camera),
         imu_problem_(imu.problem),
         odometry_(config_, processing.calibration(), {T_base_camera.linear(), imu.R_base_imu}),
-        camera_order_(processing.calibration()) {
+        right_stamp_error_s_(right_stamp_error_s),
+        camera_order_(processing.calibration()),
+        imu_(recording) {
     if (disparity_bag && config_.disparityUse() != odometry::DisparityUse::kNone)
       recorded_disparity_.emplace(*disparity_bag);
   }
@@ -111,7 +63,7 @@ class Run {
   eval::FrameRecord handle(const ros_io::RawPair& pair) {
     odometry::StereoFrame frame;
     frame.left_time_s = pair.left_time_s;
-    frame.right_time_s = pair.right_time_s;
+    frame.right_time_s = pair.right_time_s - right_stamp_error_s_;
     frame.readout_s = pair.rolling_shutter_s;
     frame.left = processing_.rectifyLeft(pair.left);
     frame.right = processing_.rectifyRight(pair.right);
@@ -121,10 +73,11 @@ class Run {
       frame.disparity = disparityFor(frame);
       record.timing.disparity_ms = millisecondsSince(start);
     }
-    feedImu(std::max(pair.left_time_s, pair.right_time_s));
+    if (imu_problem_.empty()) imu_.feed(std::max(pair.left_time_s, pair.right_time_s), odometry_);
     if (frames_++ % kFramesBetweenOrderChecks == 0) camera_order_.observe(frame.left, frame.right);
     const auto start = Clock::now();
     const odometry::FrameResult result = odometry_.process(frame);
+    if (result.right_stamps_are_corrected) found_right_stamp_error_s_ = result.right_stamp_error_s;
     record.timing.frame_ms = millisecondsSince(start);
     for (const odometry::StageTime& stage : result.stage_times) {
       record.timing.stages_ms.emplace_back(stage.stage, stage.milliseconds);
@@ -148,6 +101,8 @@ class Run {
   }
   /// Why the IMU contradicts the images; empty while it is used, or was not used from the start.
   const std::string& imuContradiction() const { return odometry_.imuProblem(); }
+  /// By how much the right stamps are still off, stamp minus true time; 0 where nothing speaks for it.
+  double rightStampError_s() const { return found_right_stamp_error_s_; }
   /// What the frames told of their uncertainty.
   RelativeCovariance uncertainty() const { return uncertainty_; }
 
@@ -162,18 +117,6 @@ class Run {
     return matched;
   }
 
-  /// All samples up to the frame's last exposure and the first one after it, so that its end can be
-  /// interpolated.
-  void feedImu(double frame_time_s) {
-    if (!imu_problem_.empty()) return;
-    const auto& samples = recording_.imu();
-    while (next_imu_ < samples.size()) {
-      const ImuSample& sample = samples[next_imu_++];
-      odometry_.addImu(sample);
-      if (sample.time_s >= frame_time_s) break;
-    }
-  }
-
   const ros_io::Recording& recording_;
   const ros_io::StereoProcessing& processing_;
   odometry::OdometryConfig config_;
@@ -181,9 +124,11 @@ class Run {
   RelativeCovariance uncertainty_;
   std::string imu_problem_;  ///< why it is not used
   odometry::WatchedOdometry odometry_;
+  double right_stamp_error_s_;              ///< that is taken off
+  double found_right_stamp_error_s_ = 0.0;  ///< beyond that
   std::size_t frames_ = 0;
   vision::CameraOrderCheck camera_order_;
-  std::size_t next_imu_ = 0;
+  ImuFeed imu_;
   std::optional<RecordedDisparity> recorded_disparity_;
   cv::Mat previous_disparity_;
 };
@@ -220,19 +165,28 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   run.input.notes = recording.notes();
   run.input.stretches = recording.stretches();
   run.input.notes.insert(run.input.notes.end(), processing.notes().begin(), processing.notes().end());
-  run.input.ground_truth = groundTruthOfBase(options, recording);
+  run.input.ground_truth =
+      groundTruthOfBase(recording, options.bag, options.ground_truth, options.ground_truth_frame);
   run.input.segment_lengths_m = options.segment_lengths_m;
   run.input.truth_sigma_m = options.truth_sigma_m;
   run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
 
+  double right_stamp_error_s = 0.0;
   for (int repetition = 0; repetition < options.repeat;) {
-    Run pass(recording, processing, config, options.disparity_from, T_base_camera, pose_params, imu);
+    Run pass(recording, processing, config, options.disparity_from, T_base_camera, pose_params, imu,
+             right_stamp_error_s);
     std::vector<eval::FrameRecord> frames;
     recording.forEachPair([&](const ros_io::RawPair& pair) {
       frames.push_back(pass.handle(pair));
       run.timings.push_back(frames.back().timing);
       progress(run.timings.size(), recording.pairs() * static_cast<std::size_t>(options.repeat));
     });
+    if (right_stamp_error_s == 0.0 && pass.rightStampError_s() != 0.0) {
+      // Once more with right stamps from the first frame on.
+      right_stamp_error_s = pass.rightStampError_s();
+      run.timings.clear();
+      continue;
+    }
     if (!pass.imuContradiction().empty()) {
       // Once more by vision alone, from the first frame on.
       imu.problem = "the IMU contradicts the images: " + pass.imuContradiction();
@@ -247,6 +201,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
       throw std::logic_error("two runs on the same recording differ; this is a defect of the odometry");
     }
   }
+  if (right_stamp_error_s != 0.0) run.input.notes.push_back(ros_io::wrongRightStamps(right_stamp_error_s));
   if (!imu.problem.empty()) {
     run.input.imu_set_aside = imu.problem;
     run.input.notes.push_back("the IMU is set aside, the path is that of vision alone: " + imu.problem);

@@ -11,6 +11,7 @@
 #include "ros/package_files.h"
 #include "ros/simulated_messages.h"
 #include "ros/stereo_processing.h"
+#include "sim/wall_map.h"
 #include "stereo_nav/core/input_error.h"
 #include "stereo_nav/core/parameters.h"
 #include "stereo_nav/estimation/base_odometry.h"
@@ -167,7 +168,7 @@ SensorRuns runSensors(const sim::Simulation& simulation, std::uint64_t seed, int
   runs.wheels = std::move(wheels.speeds);
   runs.gyro = runGyro(simulation);
   runs.ranges = simulateRanges(scene, simulation.trajectory(), seed);
-  runs.map = wallsOf(scene, simulation.scenario().scene.room);
+  runs.map = sim::wallMap(scene, simulation.scenario().scene.room, kRangingHeight_m);
   runStereo(simulation, threads, runs.stereo);
   return runs;
 }

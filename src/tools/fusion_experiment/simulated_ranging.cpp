@@ -1,6 +1,5 @@
 #include "tools/fusion_experiment/simulated_ranging.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -16,15 +15,6 @@ namespace {
 constexpr double kFinderLongest_m = 12.0;
 constexpr double kRangeBias_m = 0.05;
 constexpr double kFinderLever_m = 0.15;
-constexpr double kCell_m = 0.02;
-
-bool holds(const sim::Solid& solid, const Eigen::Vector3d& p_world) {
-  const Eigen::Vector3d p = (solid.R_solid_world * (p_world - solid.p_world)).cwiseAbs();
-  const Eigen::Vector3d half = solid.half.cast<double>();
-  if (p.z() > half.z()) return false;
-  if (solid.kind == sim::Solid::Kind::kCylinder) return p.head<2>().norm() <= half.x();
-  return p.x() <= half.x() && p.y() <= half.y();
-}
 
 }  // namespace
 
@@ -72,29 +62,6 @@ std::vector<estimation::RangeReading> simulateRanges(const sim::Scene& scene,
     }
   }
   return readings;
-}
-
-grid::OccupancyGrid wallsOf(const sim::Scene& scene, const sim::RoomParams& room) {
-  grid::GridGeometry geometry;
-  geometry.resolution_m = kCell_m;
-  geometry.origin_x_m = room.x_min_m - 0.1;
-  geometry.origin_y_m = room.y_min_m - 0.1;
-  geometry.width = static_cast<int>(std::ceil((room.x_max_m - room.x_min_m + 0.2) / kCell_m));
-  geometry.height = static_cast<int>(std::ceil((room.y_max_m - room.y_min_m + 0.2) / kCell_m));
-  grid::OccupancyGrid map(geometry, grid::kFree);
-  for (int y = 0; y < geometry.height; ++y) {
-    for (int x = 0; x < geometry.width; ++x) {
-      const Eigen::Vector2d centre = geometry.centreOf({x, y});
-      const Eigen::Vector3d p(centre.x(), centre.y(), kRangingHeight_m);
-      const bool occupied =
-          std::any_of(scene.solids().begin(), scene.solids().end(), [&p](const sim::Solid& solid) {
-            if (solid.kind == sim::Solid::Kind::kRoom) return !holds(solid, p);
-            return solid.walk_m.isZero() && holds(solid, p);
-          });
-      if (occupied) map.at({x, y}) = grid::kOccupied;
-    }
-  }
-  return map;
 }
 
 }  // namespace stereo_nav::tools

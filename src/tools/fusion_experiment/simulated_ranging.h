@@ -4,9 +4,7 @@
 #include <vector>
 
 #include "estimation/range_correction/range_corrector.h"
-#include "grid/occupancy_grid.h"
 #include "odometry/laser/laser_scan.h"
-#include "sim/scenario.h"
 #include "sim/scene.h"
 #include "sim/trajectory.h"
 
@@ -25,8 +23,5 @@ std::vector<odometry::LaserScan> simulateScans(const sim::Scene& scene, const si
 std::vector<estimation::RangeReading> simulateRanges(const sim::Scene& scene,
                                                      const sim::Trajectory& trajectory, std::uint64_t seed);
 constexpr std::size_t kRangeFinders = 4;
-
-/// What stands at that height, in cells of 2 cm; who walks is not in the map.
-grid::OccupancyGrid wallsOf(const sim::Scene& scene, const sim::RoomParams& room);
 
 }  // namespace stereo_nav::tools

@@ -7,6 +7,9 @@
 #include "core/rig_file.h"
 #include "estimation/ekf/fusion_params.h"
 #include "kinematics/drive_params.h"
+#ifdef STEREO_NAV_MAPPING
+#include "mapping/loop/loop_params.h"
+#endif
 #ifdef STEREO_NAV_NAVIGATION
 #include "navigation/planner/planner_params.h"
 #endif
@@ -164,6 +167,10 @@ void printOthers() {
   printTable(nodes::NavigatorNodeParams());
   printHeading("## `send_path`", "Sends a path from a file to the navigator.");
   printTable(nodes::SendPathParams());
+#endif
+#ifdef STEREO_NAV_MAPPING
+  printHeading("## Recognising places", "`config/loop.yaml` and files like it, read by `find_loops`.");
+  printTable(mapping::LoopParams());
 #endif
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -124,6 +125,42 @@ TEST(DrivenSimulation, theBaseObeysItsLimitsAndStopsWhenCommandsCease) {
   EXPECT_NEAR(simulation.state().velocity_base.x(), 0.4, 1e-3);
   simulation.advance(simulation.time_s() + 1.5, recorder);
   EXPECT_NEAR(simulation.state().velocity_base.x(), 0.0, 1e-3);
+}
+
+/// Somebody walks 2 m through the place where the robot is.
+Scenario walkerScenario(double waits_m) {
+  Scenario scenario = drivenScenario();
+  ObjectParams walker;
+  walker.name = "walker";
+  walker.shape = Shape::kCylinder;
+  walker.length_m = 0.4;
+  walker.height_m = 1.7;
+  walker.y_m = 1.5;
+  walker.walk_y_m = -3.0;
+  walker.walk_period_s = 6.0;
+  walker.waits_m = waits_m;
+  scenario.scene.objects = {walker};
+  return scenario;
+}
+
+TEST(DrivenSimulation, whoWaitsStopsBeforeARobotThatStandsAndGoesOnWhenItIsGone) {
+  const DrivenRig rig = rigWith(kinematics::differentialDrive(0.32, 0.033));
+  DrivenSimulation simulation(walkerScenario(0.5), rig, thesisRig(), 1);
+  Recorder recorder;
+  simulation.advance(6.0, recorder);
+  EXPECT_TRUE(recorder.contacts.empty());
+  // Half the robot's width, the walker's radius, and half a metre between them.
+  EXPECT_NEAR(simulation.scene().solids().back().position(6.0).y(), 0.2 + 0.2 + 0.5, 0.01);
+  double nearest_m = 10.0;
+  for (int i = 0; i < 12; ++i) {
+    drive(simulation, {0.5, 0.0, 0.0}, 0.5, recorder);
+    nearest_m = std::min(nearest_m, simulation.scene().solids().back().position(simulation.time_s()).y());
+  }
+  EXPECT_LT(nearest_m, -1.0) << "the way is free";
+
+  DrivenSimulation heedless(walkerScenario(0.0), rig, thesisRig(), 1);
+  heedless.advance(6.0, recorder);
+  EXPECT_FALSE(recorder.contacts.empty());
 }
 
 /// Distance from a point in a room of 6 x 4 m about the origin to its walls, along a direction.

@@ -58,6 +58,10 @@ struct FeatureReport {
   cv::Point2f current_px;                              ///< where it is in the left image
   Fate fate = Fate::kDetected;                         ///< how far it came
   Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  ///< left optical frame, m; zero if without depth
+  // Of keyframes alone, by odometries that keep a map:
+  cv::Point2f stamp_px;             ///< current_px as a global shutter would have seen it at the stamp
+  double disparity_px = 0.0;        ///< of p_camera, as the map has it; 0: unknown
+  double disparity_sigma_px = 0.0;  ///< its standard deviation
 };
 
 /// Wall-clock time that a stage of this frame took.
@@ -102,6 +106,10 @@ struct FrameResult {
   std::uint32_t inliers = 0;              ///< features that the motion was computed from
   double reprojection_error_px = std::numeric_limits<double>::quiet_NaN();      ///< RMS over the inliers
   double rotation_disagreement_rad = std::numeric_limits<double>::quiet_NaN();  ///< between images and IMU
+  /// Constant error of the right images' stamps, stamp minus true time, and its sigma; NaN where unknown.
+  double right_stamp_error_s = std::numeric_limits<double>::quiet_NaN();
+  double right_stamp_sigma_s = std::numeric_limits<double>::quiet_NaN();
+  bool right_stamps_are_corrected = false;  ///< the error is beyond doubt, and later stamps are freed from it
   bool time_offset_compensated = false;  ///< whether the images' different times were taken into account
   std::vector<FeatureReport> features;   ///< one for each feature
   std::vector<StageTime> stage_times;    ///< in the order in which the stages ran

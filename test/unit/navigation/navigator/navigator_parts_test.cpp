@@ -116,5 +116,22 @@ TEST(MotionCheck, DoesNotStrafeOrReverseWhereNothingWasSeen) {
   EXPECT_DOUBLE_EQ(MotionCheck(anywhere, drive).check(at(0.0, 0.0), {0.0, 0.4, 0.0}, world).share, 1.0);
 }
 
+/// Nothing is seen nearer than 0.9 m, and a box at 0.6 m was seen before.
+TEST(MotionCheck, CrossesItsBlindZoneOnlyForwardAndWhereNothingWasSeen) {
+  const control::DriveModelParams drive;
+  TestWorld world;
+  world.seen = [](const Eigen::Vector2d& p) { return p.x() > 0.9; };
+  EXPECT_DOUBLE_EQ(MotionCheck({}, drive).check(at(0.0, 0.0), {0.1, 0.0, 0.0}, world).share, 0.0)
+      << "nor does it creep over unseen ground";
+  MotionCheckParams params;
+  params.blind_zone_m = 1.0;
+  const MotionCheck check(params, drive);
+  EXPECT_DOUBLE_EQ(check.check(at(0.0, 0.0), {0.4, 0.0, 0.0}, world).share, 1.0);
+  EXPECT_DOUBLE_EQ(check.check(at(0.0, 0.0), {-0.4, 0.0, 0.0}, world).share, 0.0);
+  EXPECT_DOUBLE_EQ(check.check(at(0.0, 0.0), {0.0, 0.4, 0.0}, world).share, 0.0);
+  world.boxes = {{0.5, -0.2, 0.7, 0.2}};
+  EXPECT_LT(check.check(at(0.0, 0.0), {0.4, 0.0, 0.0}, world).share, 1.0);
+}
+
 }  // namespace
 }  // namespace stereo_nav::navigator

@@ -55,6 +55,24 @@ TEST_F(Layer, ForgetsWhatNobodyLooksAt) {
   EXPECT_EQ(state(), State::kUnknown);
 }
 
+TEST(NearLayer, RemembersLongerWhatStandsBesideTheRobot) {
+  EvidenceLayer layer(10, 5.0, 2, 60.0);  // the robot is in the middle, at (5, 5)
+  for (const double time_s : {0.0, 0.1}) {
+    layer.beginLook(time_s);
+    layer.seeOccupied({6, 5});
+    layer.seeOccupied({8, 5});
+    layer.endLook();
+  }
+  const auto stateAfter = [&](double time_s, int x) {
+    layer.beginLook(time_s);
+    layer.endLook();
+    return layer.state(static_cast<std::size_t>(5 * 10 + x));
+  };
+  EXPECT_EQ(stateAfter(6.0, 8), State::kUnknown);
+  EXPECT_EQ(stateAfter(59.0, 6), State::kOccupied);
+  EXPECT_EQ(stateAfter(61.0, 6), State::kUnknown);
+}
+
 TEST_F(Layer, KeepsThePlacesOfCellsWhenItsWindowMoves) {
   look(0.0, true);
   look(0.1, true);
