@@ -2,7 +2,9 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "mapping/map/chordal_start.h"
 #include "mapping/map/edge_error.h"
@@ -105,14 +107,27 @@ std::size_t degreesOfFreedom(const PoseGraph<Pose>& graph) {
          Motion<Pose>::kDof * (graph.poses.size() - std::min<std::size_t>(1, graph.poses.size()));
 }
 
+/// What is made least: chi-square, with Cauchy's loss where edges are robust.
+template <class Pose>
+double costOf(const PoseGraph<Pose>& graph, const EdgeUse& use) {
+  const double scale = use.cauchy_chi * use.cauchy_chi;
+  double cost = 0.0;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const double chi_square = (use.weights.empty() ? 1.0 : use.weights[e]) * chiSquare(graph, graph.edges[e]);
+    const bool robust = !use.robust.empty() && use.robust[e];
+    cost += robust ? scale * std::log1p(chi_square / scale) : chi_square;
+  }
+  return cost;
+}
+
 /// Replaces a bad start by the chordal one where that is better.
 template <class Pose>
 bool improveStart(PoseGraph<Pose>& graph, const OptimiserParams& params, const EdgeUse& use) {
-  const double given = chiSquare(graph, use.weights);
+  const double given = costOf(graph, use);
   if (given <= params.bad_start * static_cast<double>(degreesOfFreedom(graph))) return false;
   auto poses = chordalStart(graph, use.weights);
   poses.swap(graph.poses);
-  if (chiSquare(graph, use.weights) < given) return true;
+  if (costOf(graph, use) < given) return true;
   poses.swap(graph.poses);
   return false;
 }

@@ -1,13 +1,10 @@
 #include "mapping/map/mutual_consistency.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 
 #include "core/statistics.h"
 #include "odometry/common/exact_clique.h"
-#include "stereo_nav/core/input_error.h"
 
 namespace stereo_nav::mapping {
 namespace {
@@ -24,6 +21,9 @@ typename Motion<Pose>::Matrix covarianceOf(const GraphEdge<Pose>& edge) {
   return covariance;
 }
 
+/// Variance of a motion of which nothing is known, m^2 and rad^2.
+constexpr double kUnknown = 1e4;
+
 /// The odometry's poses by dead reckoning, and what their uncertainty adds up to.
 template <class Pose>
 class DeadReckoning {
@@ -35,11 +35,11 @@ class DeadReckoning {
     poses_.push_back(graph.poses.front());
     sums_.push_back(Matrix::Zero());
     for (std::size_t v = 0; v + 1 < graph.poses.size(); ++v) {
-      if (odometry[v] == graph.edges.size())
-        throw InputError(fmt::format(
-            "vertices {} and {} follow each other without an edge: what false loops are told by is the odometry between all "
-            "consecutive vertices",
-            graph.ids[v], graph.ids[v + 1]));
+      if (odometry[v] == graph.edges.size()) {
+        poses_.push_back(poses_.back() * graph.poses[v].inverse() * graph.poses[v + 1]);
+        sums_.push_back(sums_.back() + kUnknown * Matrix::Identity());
+        continue;
+      }
       const GraphEdge<Pose>& edge = graph.edges[odometry[v]];
       const bool forward = edge.from == v;
       poses_.push_back(poses_.back() * (forward ? edge.T_from_to : edge.T_from_to.inverse()));

@@ -31,8 +31,8 @@ struct ConsistentLoops {
 /// maximization"): two loops agree when the way out along one, back along the other and between their ends
 /// along the odometry ends where it began, within the covariances of all four. The largest set whose members
 /// all agree is a largest clique. Covariances of the odometry are summed along its edges; that two of its
-/// ways may share edges is left out of account. Throws InputError where two consecutive vertices have no
-/// edge.
+/// ways may share edges is left out of account. Where two consecutive vertices have no edge, nothing is known
+/// of the motion between them: loops across such a gap are held against each other, not against the odometry.
 template <class Pose>
 ConsistentLoops consistentLoops(const PoseGraph<Pose>& graph, const ConsistencyParams& params);
 

@@ -19,7 +19,7 @@ std::optional<OptimiseOptions> parseOptimiseOptions(int argc, char** argv) {
       ("output", po::value<std::string>(&options.output),
        "folder for the results (default: NAME_OF_FILE_optimised)")  //
       ("robust",
-       "tell false loops from true ones; needs odometry between all consecutive vertices, and lists each loop in loops.csv")  //
+       "tell false loops from true ones, and list each in loops.csv with why it was rejected")  //
       ("false-loops", numberOption(options.false_loops_percent),
        "add so many false loops, in percent of the loops of the file, to see what becomes of them")  //
       ("seed", po::value<std::uint64_t>(&options.seed)->default_value(options.seed), "of these loops");
