@@ -75,7 +75,7 @@ std::vector<Descriptor> describeCorners(const cv::Mat& image, const std::vector<
   if (corners.empty()) return descriptors;
   for (const double scale : kDescriptorScales) {
     cv::Mat scaled = image;
-    if (scale != 1.0) cv::resize(image, scaled, {}, 1.0 / scale, 1.0 / scale, cv::INTER_AREA);
+    if (scale != 1.0) cv::resize(image, scaled, {}, 1.0 / scale, 1.0 / scale, cv::INTER_LINEAR);
     const std::vector<Descriptor> at_scale = describeAtOneScale(scaled, corners, scale);
     descriptors.insert(descriptors.end(), at_scale.begin(), at_scale.end());
   }

@@ -10,8 +10,8 @@ struct VerificationParams {
   int max_distance = 64;
   int min_matches = 15;
   int min_pose_inliers = 10;
-  int min_inliers = 30;
-  double max_sigma_m = 0.015;
+  int min_inliers = 20;
+  double max_sigma_m = 0.02;
   RansacParams ransac;
   LandmarkSearchParams search;
 

@@ -17,6 +17,8 @@ namespace {
 
 /// Bits by which matches differ at most: fewer than where stereo tells wrong matches.
 constexpr int kMaxDistance = 50;
+/// More than stereo needs: an epipolar line leaves one coordinate free.
+constexpr std::size_t kMinInliers = 30;
 
 using mapping::CornerMatch;
 using mapping::LoopCandidate;
@@ -64,15 +66,15 @@ std::vector<CornerMatch> agreeingMatches(const FindLoopsOptions& options, const 
 
 void verify(const FindLoopsOptions& options, const std::vector<DescribedCorners>& images,
             LoopCandidate& candidate) {
-  const mapping::VerificationParams& params = options.loop.verification;
   candidate.inliers =
       agreeingMatches(options, images[candidate.query], images[candidate.place], candidate.matches).size();
-  const bool enough_matches = candidate.matches >= static_cast<std::size_t>(params.min_matches);
-  const bool enough_inliers = candidate.inliers >= static_cast<std::size_t>(params.min_inliers);
-  candidate.stage =
-      !enough_matches ? LoopStage::kMatches : (enough_inliers ? LoopStage::kAccepted : LoopStage::kInliers);
+  const auto min_matches = static_cast<std::size_t>(options.loop.verification.min_matches);
+  const bool enough_matches = candidate.matches >= min_matches;
   candidate.figure = static_cast<double>(enough_matches ? candidate.inliers : candidate.matches);
-  candidate.bound = enough_matches ? params.min_inliers : params.min_matches;
+  candidate.bound = static_cast<double>(enough_matches ? kMinInliers : min_matches);
+  candidate.stage = LoopStage::kAccepted;
+  if (candidate.figure < candidate.bound)
+    candidate.stage = enough_matches ? LoopStage::kInliers : LoopStage::kMatches;
 }
 
 /// Of the accepted candidates from `first` on, which are of one query, only the one with most inliers stays:
