@@ -11,7 +11,7 @@
 namespace stereo_nav::mapping {
 namespace {
 
-constexpr double kFrame_s = 0.04;
+constexpr double kFilterStep_s = 0.04;
 constexpr int kFrames = 100;
 constexpr int kFramesOfPiece = 25;  // 1 s
 constexpr double kPixelSigma_px = 0.5;
@@ -87,8 +87,8 @@ class FilterRun {
   }
 
   void step() {
-    truth_ = test::strayed(truth_, kFrame_s, noise_, random_);
-    predict(state_, kFrame_s, noise_);
+    truth_ = test::strayed(truth_, kFilterStep_s, noise_, random_);
+    predict(state_, kFilterStep_s, noise_);
     std::vector<PixelMatch> matches;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const auto px = pixelOfPoint(i);

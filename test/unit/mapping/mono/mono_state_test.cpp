@@ -71,7 +71,7 @@ TEST(MonoState, TheCovarianceOfARelativePoseIsThatOfTheMotionSince) {
   const RelativePose relative = relativeTo(state, state.blocks[0]);
   const Eigen::Vector3d way = state.blocks[0].pose.linear().transpose() * state.camera.v_world;
   EXPECT_LT((relative.T_past_now.translation() - way).norm(), 1e-12);
-  EXPECT_NEAR(relative.covariance.bottomRightCorner<3, 3>().trace(), 0.06, 1e-3);
+  EXPECT_NEAR((relative.covariance.bottomRightCorner<3, 3>().trace()), 0.06, 1e-3);
 }
 
 }  // namespace
