@@ -72,8 +72,7 @@ MonoResult MonoSlam::process(const MonoFrame& frame) {
     begin(frame);
   } else {
     predict(state_, frame.time_s - *last_s_, params_.motion, frame.turn);
-    const std::vector<PixelMatch> matches = search(image, result);
-    result.inliers = correct(matches, result);
+    result.inliers = correct(image, result);
     if (frame.velocity) {
       correctByVelocity(state_, *frame.velocity);
       scale_known_ = true;
@@ -119,29 +118,51 @@ void MonoSlam::begin(const MonoFrame& frame) {
   last_s_ = frame.time_s;
 }
 
+std::optional<PixelMatch> MonoSlam::look(const cv::Mat& image, std::size_t block,
+                                         SearchedLandmark& searched) const {
+  const StateBlock& landmark = state_.blocks[block];
+  const auto expected = expectedPixel(camera_, state_.camera, landmark, model_.readout_s);
+  if (!expected || !camera_.sees(expected->px, kMargin_px)) return std::nullopt;
+  const auto warp = warpOf(camera_, *landmark.view, landmark, state_.camera, expected->px);
+  if (!warp) return std::nullopt;
+  const Eigen::Matrix2d S = innovationCovariance(state_, landmark, *expected, model_.pixel_sigma_px);
+  const auto found = searchPatch(image, *landmark.view, *warp, expected->px, S, params_.search);
+  searched = {landmark.id, expected->px, S, found.value_or(expected->px),
+              found ? Outcome::kRejected : Outcome::kNotFound};
+  return PixelMatch{block, *expected, searched.found_px};
+}
+
 std::vector<PixelMatch> MonoSlam::search(const cv::Mat& image, MonoResult& result) {
   std::vector<PixelMatch> matches;
-  int left = params_.most_measured;
   // The oldest first: they hold the map together.
-  for (std::size_t i = 0; i < state_.blocks.size() && left > 0; ++i) {
-    StateBlock& landmark = state_.blocks[i];
-    if (!landmark.isLandmark()) continue;
-    const auto expected = expectedPixel(camera_, state_.camera, landmark, model_.readout_s);
-    if (!expected || !camera_.sees(expected->px, kMargin_px)) continue;
-    const auto warp = warpOf(camera_, *landmark.view, landmark, state_.camera, expected->px);
-    if (!warp) continue;
-    --left;
-    ++landmark.searched;
-    const Eigen::Matrix2d S = innovationCovariance(state_, landmark, *expected, model_.pixel_sigma_px);
-    const auto found = searchPatch(image, *landmark.view, *warp, expected->px, S, params_.search);
-    result.searched.push_back({landmark.id, expected->px, S, found.value_or(expected->px),
-                               found ? Outcome::kRejected : Outcome::kNotFound});
-    if (found) matches.push_back({i, *expected, *found});
+  for (std::size_t i = 0; i < state_.blocks.size(); ++i) {
+    if (!state_.blocks[i].isLandmark()) continue;
+    if (static_cast<int>(result.searched.size()) == params_.most_measured) break;
+    SearchedLandmark searched;
+    const auto match = look(image, i, searched);
+    if (!match) continue;
+    ++state_.blocks[i].searched;
+    result.searched.push_back(searched);
+    if (searched.outcome != Outcome::kNotFound) matches.push_back(*match);
   }
   return matches;
 }
 
-std::size_t MonoSlam::correct(const std::vector<PixelMatch>& matches, MonoResult& result) {
+std::vector<PixelMatch> MonoSlam::searchAgain(const cv::Mat& image, MonoResult& result) const {
+  std::vector<PixelMatch> matches;
+  std::size_t block = 0;
+  for (SearchedLandmark& searched : result.searched) {
+    while (state_.blocks[block].id != searched.id) ++block;
+    if (searched.outcome == Outcome::kLowInnovation) continue;
+    SearchedLandmark again;
+    const auto match = look(image, block, again);
+    if (match && again.outcome != Outcome::kNotFound) matches.push_back(*match);
+  }
+  return matches;
+}
+
+std::size_t MonoSlam::correct(const cv::Mat& image, MonoResult& result) {
+  const std::vector<PixelMatch> matches = search(image, result);
   const std::vector<std::size_t> low = lowInnovationInliers(state_, model_, matches, params_.ransac, random_);
   if (low.size() < kLeastInliers) {
     ++coasting_;
@@ -152,22 +173,28 @@ std::size_t MonoSlam::correct(const std::vector<PixelMatch>& matches, MonoResult
     return low.size();
   }
   coasting_ = 0;
-  const auto account = [&](const PixelMatch& match, Outcome outcome) {
+  std::vector<PixelMatch> agreeing;
+  for (const std::size_t i : low) agreeing.push_back(matches[i]);
+  correctByPixels(state_, agreeing, model_.pixel_sigma_px);
+  account(agreeing, Outcome::kLowInnovation, result);
+  const std::vector<PixelMatch> high =
+      highInnovationInliers(state_, model_, searchAgain(image, result), params_.ransac);
+  correctByPixels(state_, high, model_.pixel_sigma_px);
+  account(high, Outcome::kHighInnovation, result);
+  return low.size() + high.size();
+}
+
+void MonoSlam::account(const std::vector<PixelMatch>& matches, Outcome outcome, MonoResult& result) {
+  for (const PixelMatch& match : matches) {
     StateBlock& landmark = state_.blocks[match.block];
     ++landmark.found;
     landmark.last_found = frame_;
     for (SearchedLandmark& searched : result.searched) {
-      if (searched.id == landmark.id) searched.outcome = outcome;
+      if (searched.id != landmark.id) continue;
+      searched.outcome = outcome;
+      searched.found_px = match.found_px;
     }
-  };
-  std::vector<PixelMatch> agreeing;
-  for (const std::size_t i : low) agreeing.push_back(matches[i]);
-  correctByPixels(state_, agreeing, model_.pixel_sigma_px);
-  for (const PixelMatch& match : agreeing) account(match, Outcome::kLowInnovation);
-  const std::vector<PixelMatch> rescued = highInnovationInliers(state_, model_, matches, low, params_.ransac);
-  correctByPixels(state_, rescued, model_.pixel_sigma_px);
-  for (const PixelMatch& match : rescued) account(match, Outcome::kHighInnovation);
-  return low.size() + rescued.size();
+  }
 }
 
 void MonoSlam::forget() {

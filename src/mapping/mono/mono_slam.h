@@ -30,11 +30,11 @@ struct MonoFrame {
 /// A landmark as the filter treated it in a frame, for pictures of it.
 struct SearchedLandmark {
   enum class Outcome { kNotFound, kRejected, kLowInnovation, kHighInnovation };
-  int id;
-  Eigen::Vector2d expected_px;
-  Eigen::Matrix2d covariance_px2;  ///< of the innovation
-  Eigen::Vector2d found_px;        ///< where it is found
-  Outcome outcome;
+  int id = 0;
+  Eigen::Vector2d expected_px = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  ///< of the innovation
+  Eigen::Vector2d found_px = Eigen::Vector2d::Zero();        ///< where it is found
+  Outcome outcome = Outcome::kNotFound;
 };
 
 struct MonoResult {
@@ -80,8 +80,11 @@ class MonoSlam {
 
  private:
   void begin(const MonoFrame& frame);
+  std::optional<PixelMatch> look(const cv::Mat& image, std::size_t block, SearchedLandmark& searched) const;
   std::vector<PixelMatch> search(const cv::Mat& image, MonoResult& result);
-  std::size_t correct(const std::vector<PixelMatch>& matches, MonoResult& result);
+  std::vector<PixelMatch> searchAgain(const cv::Mat& image, MonoResult& result) const;
+  std::size_t correct(const cv::Mat& image, MonoResult& result);
+  void account(const std::vector<PixelMatch>& matches, SearchedLandmark::Outcome outcome, MonoResult& result);
   void forget();
   void addLandmarks(const cv::Mat& image, const CameraState& camera);
   void complete(const MonoFrame& frame, MonoResult& result);

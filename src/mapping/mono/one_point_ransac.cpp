@@ -58,20 +58,15 @@ std::vector<std::size_t> lowInnovationInliers(const MonoState& state, const Imag
 
 std::vector<PixelMatch> highInnovationInliers(const MonoState& corrected, const ImageModel& model,
                                               const std::vector<PixelMatch>& matches,
-                                              const std::vector<std::size_t>& inliers,
                                               const RansacParams& params) {
-  std::vector<PixelMatch> rescued;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (std::find(inliers.begin(), inliers.end(), i) != inliers.end()) continue;
-    const StateBlock& landmark = corrected.blocks[matches[i].block];
-    const auto expected = expectedPixel(model.camera, corrected.camera, landmark, model.readout_s);
-    if (!expected) continue;
-    const PixelMatch match{matches[i].block, *expected, matches[i].found_px};
-    const Eigen::Matrix2d S = innovationCovariance(corrected, landmark, *expected, model.pixel_sigma_px);
+  std::vector<PixelMatch> inliers;
+  for (const PixelMatch& match : matches) {
+    const Eigen::Matrix2d S =
+        innovationCovariance(corrected, corrected.blocks[match.block], match.expected, model.pixel_sigma_px);
     if (match.innovation().dot(S.ldlt().solve(match.innovation())) < params.chi_square)
-      rescued.push_back(match);
+      inliers.push_back(match);
   }
-  return rescued;
+  return inliers;
 }
 
 }  // namespace stereo_nav::mapping

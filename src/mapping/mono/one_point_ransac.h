@@ -15,12 +15,10 @@ std::vector<std::size_t> lowInnovationInliers(const MonoState& state, const Imag
                                               const std::vector<PixelMatch>& matches,
                                               const RansacParams& params, std::mt19937& random);
 
-/// Of the matches not in `inliers`, those that the state corrected by the inliers explains within its own
-/// uncertainty: the near ones, whose innovation is large since their depth was not known. Their expected
-/// pixels are those of the corrected state.
+/// Of matches that were looked for anew in the smaller ellipses of a corrected state, those that it explains
+/// within its own uncertainty: near landmarks, whose innovation was large since their depth was not known.
 std::vector<PixelMatch> highInnovationInliers(const MonoState& corrected, const ImageModel& model,
                                               const std::vector<PixelMatch>& matches,
-                                              const std::vector<std::size_t>& inliers,
                                               const RansacParams& params);
 
 }  // namespace stereo_nav::mapping

@@ -137,9 +137,10 @@ TEST(MonoGeometry, DerivativesOfTheMotionAreThoseOfDifferences) {
   const CameraState moved = movedCamera(camera, 0.1, &transition);
   EXPECT_LT((moved.p_world - Eigen::Vector3d(0.34, -0.19, 0.07)).norm(), 1e-12);
   for (Eigen::Index row = 0; row < kCameraRows; ++row) {
-    const Eigen::Matrix<double, kCameraRows, 1> slope = (difference(movedCamera(disturbed(camera, row, kStep), 0.1), moved) -
-                        difference(movedCamera(disturbed(camera, row, -kStep), 0.1), moved)) /
-                       (2.0 * kStep);
+    const Eigen::Matrix<double, kCameraRows, 1> slope =
+        (difference(movedCamera(disturbed(camera, row, kStep), 0.1), moved) -
+         difference(movedCamera(disturbed(camera, row, -kStep), 0.1), moved)) /
+        (2.0 * kStep);
     EXPECT_LT((slope - transition.col(row)).norm(), 1e-6) << row;
   }
 }
