@@ -24,7 +24,7 @@ struct SearchParams {
 
 /// Which matches agree (Civera, Grasa, Davison and Montiel 2010).
 struct RansacParams {
-  double threshold_px = 1.0;
+  double threshold_px = 2.0;
   double probability = 0.99;
   double chi_square = 5.99;
   int most_hypotheses = 100;
@@ -35,10 +35,10 @@ struct RansacParams {
 /// Parameters of SLAM with one camera.
 struct MonoParams {
   double pixel_sigma_px = 0.5;
-  double start_speed_sigma = 0.5;
+  double start_speed_sigma = 1.0;
   double start_turn_sigma_rad_per_s = 0.5;
-  double inverse_depth_start = 1.0;
-  double inverse_depth_sigma = 1.0;
+  double inverse_depth_start = 0.1;
+  double inverse_depth_sigma = 0.5;
   double linearity_index = 0.1;
   int most_landmarks = 60;
   int most_measured = 30;

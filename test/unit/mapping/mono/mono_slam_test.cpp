@@ -6,8 +6,8 @@
 
 #include "point_world.h"
 #include "stereo_nav/core/input_error.h"
-#include "support/textured_room.h"
 #include "support/trajectories.h"
+#include "two_walls.h"
 
 namespace stereo_nav::mapping {
 namespace {
@@ -28,19 +28,18 @@ MonoFrame frameAt(double time_s) {
   const MonoCamera camera = test::smallCamera();
   MonoFrame frame;
   frame.time_s = time_s;
-  frame.image = stereo_nav::test::TexturedRoom().render(handHeld(time_s), camera.fx, camera.fy, camera.cx,
-                                                        camera.cy, camera.size);
+  static const test::TwoWalls walls;
+  frame.image = walls.render(camera, handHeld(time_s));
   return frame;
 }
 
-/// What a board in the first image would give: points of the walls.
+/// What a board in the first image would give: corners of the texture or not.
 std::vector<KnownPoint> knownPoints() {
   std::vector<KnownPoint> points;
   for (const double u : {60.0, 130.0, 200.0, 260.0}) {
     for (const double v : {50.0, 120.0, 190.0}) {
       const Eigen::Vector3d ray = test::smallCamera().ray({u, v});
-      points.push_back(
-          {stereo_nav::test::TexturedRoom().distance(Eigen::Vector3d::Zero(), ray) * ray, {u, v}});
+      points.push_back({test::TwoWalls().depth(ray) * ray, {u, v}});
     }
   }
   return points;

@@ -20,14 +20,13 @@ inline MonoCamera wideCamera() {
   return {195.0, 195.0, 162.0, 125.0, 9e-6, {320, 240}};
 }
 
-/// Points all around, 1 to 5 m away from the origin.
-inline std::vector<Eigen::Vector3d> pointsAround(int count, std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> distance(1.0, 5.0);
+/// Points before the camera, 2 to 6 m away.
+inline std::vector<Eigen::Vector3d> pointsBefore(int count, std::mt19937& random) {
+  std::uniform_real_distribution<double> across(-1.0, 1.0), depth_m(2.0, 6.0);
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d direction(normal(random), normal(random), normal(random));
-    points.push_back(distance(random) * direction.normalized());
+    const double x = across(random), y = across(random), z = depth_m(random);
+    points.push_back(z * Eigen::Vector3d(x, 0.8 * y, 1.0));
   }
   return points;
 }
