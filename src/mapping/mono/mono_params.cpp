@@ -9,6 +9,15 @@ void MotionNoise::describe(ParameterVisitor& visitor) {
                "what the rate of turn changes by within 1 s; not used where a gyroscope measures it");
 }
 
+void MeasuredMotionParams::describe(ParameterVisitor& visitor) {
+  visitor.real("gyro_sigma_rad_per_s", gyro_sigma_rad_per_s, {1e-4, 10.0}, "rad/s",
+               "standard deviation of the mean rate of turn between two frames by the IMU, with its bias");
+  visitor.real("speed_sigma_m_per_s", speed_sigma_m_per_s, {1e-4, 10.0}, "m/s",
+               "standard deviation of the velocity by wheels or another odometry at rest");
+  visitor.real("speed_sigma_share", speed_sigma_share, {0.0, 1.0}, "",
+               "what it grows by with the speed, a share of it");
+}
+
 void SearchParams::describe(ParameterVisitor& visitor) {
   visitor.integer("window_px", window_px, {7, 21}, "px", "side of a patch, odd");
   visitor.real("min_correlation", min_correlation, {0.0, 1.0}, "",
@@ -56,6 +65,7 @@ void MonoParams::describe(ParameterVisitor& visitor) {
       "t of FAST (9 contiguous pixels of a circle of radius 3 brighter or darker by t); lowered to a "
       "quarter in cells without corners");
   visitSection(visitor, "motion", motion);
+  visitSection(visitor, "measured", measured);
   visitSection(visitor, "search", search);
   visitSection(visitor, "ransac", ransac);
 }

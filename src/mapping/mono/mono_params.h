@@ -6,8 +6,17 @@ namespace stereo_nav::mapping {
 
 /// How the camera is expected to move. Lengths are m where the scale is known, else units of the map.
 struct MotionNoise {
-  double acceleration_sigma = 1.0;
+  double acceleration_sigma = 2.0;
   double turn_acceleration_sigma = 3.0;
+
+  void describe(ParameterVisitor& visitor);
+};
+
+/// What other sensors are worth to the filter.
+struct MeasuredMotionParams {
+  double gyro_sigma_rad_per_s = 0.1;
+  double speed_sigma_m_per_s = 0.02;
+  double speed_sigma_share = 0.03;
 
   void describe(ParameterVisitor& visitor);
 };
@@ -24,7 +33,7 @@ struct SearchParams {
 
 /// Which matches agree (Civera, Grasa, Davison and Montiel 2010).
 struct RansacParams {
-  double threshold_px = 2.0;
+  double threshold_px = 3.0;
   double probability = 0.99;
   double chi_square = 5.99;
   int most_hypotheses = 100;
@@ -34,10 +43,10 @@ struct RansacParams {
 
 /// Parameters of SLAM with one camera.
 struct MonoParams {
-  double pixel_sigma_px = 0.5;
+  double pixel_sigma_px = 1.0;
   double start_speed_sigma = 1.0;
   double start_turn_sigma_rad_per_s = 0.5;
-  double inverse_depth_start = 0.1;
+  double inverse_depth_start = 0.2;
   double inverse_depth_sigma = 0.5;
   double linearity_index = 0.1;
   int most_landmarks = 60;
@@ -45,6 +54,7 @@ struct MonoParams {
   double least_found_share = 0.5;
   int fast_threshold = 20;
   MotionNoise motion;
+  MeasuredMotionParams measured;
   SearchParams search;
   RansacParams ransac;
 

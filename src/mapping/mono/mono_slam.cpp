@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "mapping/mono/known_start.h"
 #include "mapping/mono/mono_landmarks.h"
@@ -35,6 +36,14 @@ vision::GridCornerDetectorParams detectorParams(const MonoParams& params) {
   detector.min_threshold = std::max(1, params.fast_threshold / 4);
   detector.min_distance_px = params.search.window_px;
   return detector;
+}
+
+/// Covariance of velocity and rate of turn of a camera that may move or not.
+Matrix6d startRates(const MonoParams& params) {
+  Vector6d variances;
+  variances.head<3>().setConstant(params.start_speed_sigma * params.start_speed_sigma);
+  variances.tail<3>().setConstant(params.start_turn_sigma_rad_per_s * params.start_turn_sigma_rad_per_s);
+  return variances.asDiagonal();
 }
 
 cv::Point2f toCv(const Eigen::Vector2d& px) {
@@ -82,7 +91,24 @@ MonoResult MonoSlam::process(const MonoFrame& frame) {
   }
   if (coasting_ == 0) addLandmarks(image, state_.camera);
   complete(frame, result);
+  if (result.state == MonoResult::State::kLost) startNewMap(image);
   return result;
+}
+
+void MonoSlam::startNewMap(const cv::Mat& image) {
+  for (std::size_t i = state_.blocks.size(); i-- > 0;) {
+    if (state_.blocks[i].isLandmark()) state_.remove(i);
+  }
+  Matrix12d keep_pose = Matrix12d::Identity();
+  keep_pose.bottomRightCorner<6, 6>().setZero();
+  Matrix12d rates = Matrix12d::Zero();
+  rates.bottomRightCorner<6, 6>() = startRates(params_);
+  state_.covariance.moveCamera(keep_pose, rates);
+  state_.camera.v_world.setZero();
+  state_.camera.omega_camera.setZero();
+  scale_known_ = false;
+  coasting_ = 0;
+  addLandmarks(image, state_.camera);
 }
 
 MonoResult MonoSlam::start(const MonoFrame& frame, const std::vector<KnownPoint>& points) {
@@ -110,10 +136,7 @@ MonoResult MonoSlam::start(const MonoFrame& frame, const std::vector<KnownPoint>
 void MonoSlam::begin(const MonoFrame& frame) {
   state_.camera = CameraState();
   Matrix12d P = Matrix12d::Zero();
-  const double speed = params_.start_speed_sigma;
-  const double turn = params_.start_turn_sigma_rad_per_s;
-  P.diagonal().segment<3>(6).setConstant(speed * speed);
-  P.diagonal().segment<3>(9).setConstant(turn * turn);
+  P.bottomRightCorner<6, 6>() = startRates(params_);
   state_.covariance.start(P);
   last_s_ = frame.time_s;
 }
@@ -259,6 +282,13 @@ int MonoSlam::renewPastPose(std::optional<int> old_id) {
     }
   }
   return addPastPose(state_);
+}
+
+RelativePose MonoSlam::sincePastPose(int id) const {
+  const auto past = std::find_if(state_.blocks.begin(), state_.blocks.end(),
+                                 [id](const StateBlock& block) { return block.id == id; });
+  if (past == state_.blocks.end()) throw std::logic_error("MonoSlam::sincePastPose(): no such pose");
+  return relativeTo(state_, *past);
 }
 
 }  // namespace stereo_nav::mapping

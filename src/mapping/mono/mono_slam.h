@@ -41,7 +41,7 @@ struct MonoResult {
   enum class State {
     kTracking,
     kCoasting,  ///< too few landmarks are found: the last velocity goes on
-    kLost       ///< for too long: the pose is a guess, the map is kept for its return
+    kLost       ///< for too long: the pose is a guess, a new map of unknown scale begins here
   };
   double time_s = 0.0;
   State state = State::kTracking;
@@ -77,9 +77,12 @@ class MonoSlam {
 
   /// For measures of the drift: puts the present pose into the state, in the place of that with `old_id`.
   int renewPastPose(std::optional<int> old_id);
+  /// The present pose relative to that one.
+  RelativePose sincePastPose(int id) const;
 
  private:
   void begin(const MonoFrame& frame);
+  void startNewMap(const cv::Mat& image);
   std::optional<PixelMatch> look(const cv::Mat& image, std::size_t block, SearchedLandmark& searched) const;
   std::vector<PixelMatch> search(const cv::Mat& image, MonoResult& result);
   std::vector<PixelMatch> searchAgain(const cv::Mat& image, MonoResult& result) const;

@@ -12,10 +12,12 @@ bool correctByPixels(MonoState& state, const std::vector<PixelMatch>& matches, d
     PHt.middleCols<2>(row) = covarianceWith(state, state.blocks[matches[i].block], matches[i].expected);
     innovation.segment<2>(row) = matches[i].innovation();
   }
-  Eigen::MatrixXd S = pixel_sigma_px * pixel_sigma_px * Eigen::MatrixXd::Identity(rows, rows);
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(rows, rows);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const StateBlock& landmark = state.blocks[matches[i].block];
-    auto two_rows = S.middleRows<2>(static_cast<Eigen::Index>(2 * i));
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    S.block<2, 2>(row, row) = pixelNoise(state, landmark, matches[i].expected, pixel_sigma_px);
+    auto two_rows = S.middleRows<2>(row);
     two_rows += matches[i].expected.by_camera * PHt.topRows<kCameraRows>();
     two_rows += matches[i].expected.by_landmark * PHt.middleRows(landmark.offset, landmark.rows());
   }

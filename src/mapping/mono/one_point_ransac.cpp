@@ -14,7 +14,10 @@ std::vector<std::size_t> agreeing(const MonoState& state, const ImageModel& mode
   const PixelMatch& match = matches[chosen];
   const StateBlock& landmark = state.blocks[match.block];
   const auto PHt = covarianceWith(state, landmark, match.expected);
-  const Eigen::Matrix2d S = innovationCovariance(state, landmark, match.expected, model.pixel_sigma_px);
+  // The hypothesis is what the match says, without the doubt of its second-order term.
+  const Eigen::Matrix2d S = match.expected.by_camera * PHt.topRows<kCameraRows>() +
+                            match.expected.by_landmark * PHt.middleRows(landmark.offset, landmark.rows()) +
+                            model.pixel_sigma_px * model.pixel_sigma_px * Eigen::Matrix2d::Identity();
   const Eigen::Vector2d weighted = S.ldlt().solve(match.innovation());
   CameraState camera = state.camera;
   const Eigen::Matrix<double, kCameraRows, 1> step = PHt.topRows<kCameraRows>() * weighted;

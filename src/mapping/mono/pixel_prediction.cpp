@@ -72,9 +72,10 @@ std::optional<ExpectedPixel> expectedPixel(const MonoCamera& camera, const Camer
   expected.px = projected->px;
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 6> by_landmark;
   const double by_position = directionBy(landmark, row->state.p_world, by_landmark);
-  expected.by_landmark = projected->by_point * R_camera_world * by_landmark;
+  expected.by_direction = projected->by_point * R_camera_world;
+  expected.by_landmark = expected.by_direction * by_landmark;
   Eigen::Matrix<double, 2, kCameraRows> by_row_pose = Eigen::Matrix<double, 2, kCameraRows>::Zero();
-  by_row_pose.leftCols<3>() = by_position * projected->by_point * R_camera_world;
+  by_row_pose.leftCols<3>() = by_position * expected.by_direction;
   by_row_pose.middleCols<3>(3) = projected->by_point * hat(p_camera);
   expected.by_camera = by_row_pose;
   if (row->after_s != 0.0) {
@@ -93,6 +94,20 @@ Eigen::Matrix<double, Eigen::Dynamic, 2> covarianceWith(const MonoState& state, 
   return PHt;
 }
 
+Eigen::Matrix2d pixelNoise(const MonoState& state, const StateBlock& landmark, const ExpectedPixel& expected,
+                           double pixel_sigma_px) {
+  Eigen::Matrix2d noise = pixel_sigma_px * pixel_sigma_px * Eigen::Matrix2d::Identity();
+  if (landmark.form != StateBlock::Form::kInverseDepth) return noise;
+  const auto P = state.covariance.matrix();
+  const Eigen::Index first = landmark.offset;
+  const Eigen::Matrix3d cross = P.block<3, 3>(0, first);
+  const Eigen::Matrix3d moved =
+      P.topLeftCorner<3, 3>() + P.block<3, 3>(first, first) - cross - cross.transpose();
+  const double rho_variance = P(first + 5, first + 5);
+  noise += rho_variance * expected.by_direction * moved * expected.by_direction.transpose();
+  return noise;
+}
+
 Eigen::Matrix2d innovationCovariance(const MonoState& state, const StateBlock& landmark,
                                      const ExpectedPixel& expected, double pixel_sigma_px) {
   const auto P = state.covariance.matrix();
@@ -102,7 +117,7 @@ Eigen::Matrix2d innovationCovariance(const MonoState& state, const StateBlock& l
       expected.by_camera * P.block(0, offset, kCameraRows, rows) * expected.by_landmark.transpose();
   return expected.by_camera * P.topLeftCorner<kCameraRows, kCameraRows>() * expected.by_camera.transpose() +
          expected.by_landmark * P.block(offset, offset, rows, rows) * expected.by_landmark.transpose() +
-         cross + cross.transpose() + pixel_sigma_px * pixel_sigma_px * Eigen::Matrix2d::Identity();
+         cross + cross.transpose() + pixelNoise(state, landmark, expected, pixel_sigma_px);
 }
 
 }  // namespace stereo_nav::mapping

@@ -78,7 +78,7 @@ TEST(MonoSlam, WithoutAScaleThePathHasTheRightShape) {
   const Eigen::Matrix4d S = Eigen::umeyama(from, to, true);
   const Eigen::Matrix3Xd error =
       ((S.topLeftCorner<3, 3>() * from).colwise() + Eigen::Vector3d(S.topRightCorner<3, 1>())) - to;
-  EXPECT_LT(std::sqrt(error.squaredNorm() / static_cast<double>(truth.size())), 0.03);
+  EXPECT_LT(std::sqrt(error.squaredNorm() / static_cast<double>(truth.size())), 0.05);
 }
 
 TEST(MonoSlam, VelocitiesGiveTheScale) {
@@ -124,6 +124,23 @@ TEST(MonoSlam, ACoveredCameraIsSaidAndTheMapIsFoundAgain) {
     result = slam.process(frameAt(time_s));
   EXPECT_EQ(result.state, MonoResult::State::kTracking);
   EXPECT_LT((result.camera.p_world - handHeld(result.time_s).translation()).norm(), 0.05);
+}
+
+TEST(MonoSlam, AfterALossANewMapBegins) {
+  MonoSlam slam(MonoParams(), test::smallCamera());
+  slam.start(frameAt(0.0), knownPoints());
+  slam.process(frameAt(kFrame_s));
+  MonoFrame covered = frameAt(0.1);
+  covered.image.setTo(40);
+  MonoResult result;
+  for (int i = 0; i < 30 && result.state != MonoResult::State::kLost; ++i) {
+    covered.time_s = 0.1 + i * kFrame_s;
+    result = slam.process(covered);
+  }
+  EXPECT_EQ(result.state, MonoResult::State::kLost);
+  for (double time_s = 2.0; time_s < 3.0; time_s += kFrame_s) result = slam.process(frameAt(time_s));
+  EXPECT_EQ(result.state, MonoResult::State::kTracking);
+  EXPECT_FALSE(result.scale_known);
 }
 
 TEST(MonoSlam, TheMapKeepsItsBudget) {
