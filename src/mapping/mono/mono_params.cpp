@@ -18,7 +18,7 @@ void MeasuredMotionParams::describe(ParameterVisitor& visitor) {
                "what it grows by with the speed, a share of it");
 }
 
-void SearchParams::describe(ParameterVisitor& visitor) {
+void PatchSearchParams::describe(ParameterVisitor& visitor) {
   visitor.integer("window_px", window_px, {7, 21}, "px", "side of a patch, odd");
   visitor.real("min_correlation", min_correlation, {0.0, 1.0}, "",
                "zero-mean normalised correlation from which a patch counts as found");

@@ -22,7 +22,7 @@ struct MeasuredMotionParams {
 };
 
 /// How patches are found again.
-struct SearchParams {
+struct PatchSearchParams {
   int window_px = 13;
   double min_correlation = 0.8;
   double min_texture = 4.0;
@@ -55,7 +55,7 @@ struct MonoParams {
   int fast_threshold = 20;
   MotionNoise motion;
   MeasuredMotionParams measured;
-  SearchParams search;
+  PatchSearchParams search;
   RansacParams ransac;
 
   void describe(ParameterVisitor& visitor);

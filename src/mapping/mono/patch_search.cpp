@@ -82,7 +82,8 @@ std::optional<Eigen::Matrix2f> warpOf(const MonoCamera& camera, const FirstView&
 
 std::optional<Eigen::Vector2d> searchPatch(const cv::Mat& image, const FirstView& view,
                                            const Eigen::Matrix2f& warp, const Eigen::Vector2d& expected_px,
-                                           const Eigen::Matrix2d& covariance, const SearchParams& params) {
+                                           const Eigen::Matrix2d& covariance,
+                                           const PatchSearchParams& params) {
   const auto patch =
       vision::Patch::cut(view.surroundings, view.centre, params.window_px, params.min_texture, warp);
   if (!patch) return std::nullopt;

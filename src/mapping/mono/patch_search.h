@@ -35,6 +35,7 @@ std::optional<Eigen::Matrix2f> warpOf(const MonoCamera& camera, const FirstView&
 /// then a fraction of a pixel by Lucas-Kanade. Nothing where nothing there looks like it.
 std::optional<Eigen::Vector2d> searchPatch(const cv::Mat& image, const FirstView& view,
                                            const Eigen::Matrix2f& warp, const Eigen::Vector2d& expected_px,
-                                           const Eigen::Matrix2d& covariance, const SearchParams& params);
+                                           const Eigen::Matrix2d& covariance,
+                                           const PatchSearchParams& params);
 
 }  // namespace stereo_nav::mapping
