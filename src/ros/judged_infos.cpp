@@ -13,6 +13,8 @@ int toInt(std::uint32_t value) {
   return static_cast<int>(std::min<std::uint32_t>(value, std::numeric_limits<int>::max()));
 }
 
+}  // namespace
+
 sensor_msgs::CameraInfo toInfo(const vision::CameraFields& fields, const std_msgs::Header& header) {
   sensor_msgs::CameraInfo info;
   info.header = header;
@@ -25,8 +27,6 @@ sensor_msgs::CameraInfo toInfo(const vision::CameraFields& fields, const std_msg
   std::copy(fields.P.val, fields.P.val + 12, info.P.begin());
   return info;
 }
-
-}  // namespace
 
 vision::CameraFields toFields(const sensor_msgs::CameraInfo& info) {
   vision::CameraFields fields;

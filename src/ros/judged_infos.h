@@ -21,6 +21,9 @@ struct JudgedInfos {
 /// The fields of a camera_info that make the calibration.
 vision::CameraFields toFields(const sensor_msgs::CameraInfo& info);
 
+/// The camera_info of judged fields, all of which are of the image as it is delivered.
+sensor_msgs::CameraInfo toInfo(const vision::CameraFields& fields, const std_msgs::Header& header);
+
 /// Judges the camera_infos of a pair before they are used. Throws InputError as vision::judgePair() does, and
 /// where the frame ids differ, on which image_geometry would abort the process.
 JudgedInfos judgeInfos(const sensor_msgs::CameraInfo& left, const sensor_msgs::CameraInfo& right);

@@ -88,4 +88,13 @@ std::string unconfirmed() {
   return "the map has just begun: its first motion is believed once the next frame confirms it";
 }
 
+void reportRightStamps(const RightStampError& stamps, FrameResult& result) {
+  result.right_stamps_are_corrected = stamps.takenOff_s() != 0.0;
+  if (result.right_stamps_are_corrected) result.right_stamp_error_s = stamps.takenOff_s();
+  const auto estimate = stamps.estimate();
+  if (!estimate) return;
+  result.right_stamp_error_s = estimate->error_s;
+  result.right_stamp_sigma_s = estimate->sigma_s;
+}
+
 }  // namespace stereo_nav::odometry

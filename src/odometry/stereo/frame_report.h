@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "odometry/stereo/local_map.h"
+#include "odometry/stereo/right_stamp_error.h"
 #include "odometry/stereo/track.h"
 #include "stereo_nav/odometry/common/odometry.h"
 
@@ -26,5 +27,8 @@ std::string moverFillsView();
 /// Why a motion that nothing predicts is not believed, and why the first one of a map is not yet.
 std::string ambiguous();
 std::string unconfirmed();
+
+/// What is known of the right stamps; without an estimate, what is taken off them.
+void reportRightStamps(const RightStampError& stamps, FrameResult& result);
 
 }  // namespace stereo_nav::odometry

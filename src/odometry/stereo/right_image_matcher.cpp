@@ -40,6 +40,13 @@ bool teaches(const vision::StereoCalibration& calibration, const vision::StereoV
 
 }  // namespace
 
+void RightImageMatcher::learn(const vision::StereoView& view, const MotionPrior& prior,
+                              const std::vector<Track>& tracks) {
+  // First the stamps: what is subtracted from the rows still is that with which they were matched.
+  learnStamps(view, prior, tracks);
+  learnRows(view, tracks);
+}
+
 void RightImageMatcher::learnRows(const vision::StereoView& view, const std::vector<Track>& tracks) {
   vision::EpipolarError& rows = stereo_.epipolarError();
   vision::ViewResidual residual;
@@ -51,11 +58,12 @@ void RightImageMatcher::learnRows(const vision::StereoView& view, const std::vec
   rows.learn();
 }
 
-void RightImageMatcher::learnStamps(const vision::StereoView& view, const Vector6d& twist,
-                                    double right_offset_s, const std::vector<Track>& tracks) {
+void RightImageMatcher::learnStamps(const vision::StereoView& view, const MotionPrior& prior,
+                                    const std::vector<Track>& tracks) {
+  const Vector6d twist = prior.twistAt(view);
   const vision::EpipolarError& rows = stereo_.epipolarError();
   // The motion between the images by the stamps, not the one that the images themselves have told.
-  const vision::StereoView by_stamps{view.T_camera_world, expMotion(twist * right_offset_s)};
+  const vision::StereoView by_stamps{view.T_camera_world, expMotion(twist * prior.right_time_offset_s)};
   vision::ViewResidual residual;
   for (const Track& track : tracks) {
     if (!teaches(calibration_, by_stamps, track, residual)) continue;

@@ -40,20 +40,20 @@ class RightImageMatcher {
     return stereo_.search(images.left, images.right, view.T_late_camera, left_px, slack_px);
   }
 
-  /// Learns the displacement of the rows from the inliers of a frame with this refined pose.
-  void learnRows(const vision::StereoView& view, const std::vector<Track>& tracks);
-  /// Learns from them what is constantly wrong with the right stamps. `twist` is that of the world in the
-  /// left camera's frame, m/s and rad/s, and the right image was taken `right_offset_s` after the left one by
-  /// its stamp.
-  void learnStamps(const vision::StereoView& view, const Vector6d& twist, double right_offset_s,
-                   const std::vector<Track>& tracks);
-  /// The same from the matches of a first frame whose two images have one stamp; these matches are corrected
-  /// by what was learned.
+  /// Learns the displacement of the rows from the inliers of a frame with this refined pose, and what is
+  /// constantly wrong with the right stamps.
+  void learn(const vision::StereoView& view, const MotionPrior& prior, const std::vector<Track>& tracks);
+  /// The rows alone from the matches of a first frame whose two images have one stamp; these matches are
+  /// corrected by what was learned.
   void learnRowsAtStart(std::vector<NewLandmark>& matches);
 
-  RightStampError& stampError() { return stamp_error_; }
+  const RightStampError& stampError() const { return stamp_error_; }
 
  private:
+  void learnRows(const vision::StereoView& view, const std::vector<Track>& tracks);
+  void learnStamps(const vision::StereoView& view, const MotionPrior& prior,
+                   const std::vector<Track>& tracks);
+
   vision::StereoCalibration calibration_;
   vision::SparseStereoMatcher stereo_;
   RightStampError stamp_error_;

@@ -42,9 +42,20 @@ void RightStampError::learn() {
   // So little that it decides nothing where something is known.
   const Eigen::Vector4d least(1e-3, 1e-3, 1e-3, 1.0);
   coefficients_ = (information_ + Eigen::Matrix4d(least.asDiagonal())).ldlt().solve(moments_);
+  const auto found = rest();
+  if (!found || !found->isCertain()) return;
+  const double taken_off_s = taken_off_s_ + found->error_s;
+  *this = RightStampError();
+  taken_off_s_ = taken_off_s;
 }
 
 std::optional<RightStampError::Estimate> RightStampError::estimate() const {
+  auto estimate = rest();
+  if (estimate) estimate->error_s += taken_off_s_;
+  return estimate;
+}
+
+std::optional<RightStampError::Estimate> RightStampError::rest() const {
   const double matches = information_(0, 0);
   if (matches < kFewestMatches) return std::nullopt;
   // What of the flow no displacement of the rows explains: the Schur complement of the time.

@@ -10,7 +10,7 @@ namespace stereo_nav::odometry {
 /// through the image, and the right camera sees it in the row of the true time of exposure. What else
 /// displaces rows, an error of the calibration, is the same in each frame and linear in the image
 /// (vision::EpipolarError) and is estimated together with it, by robust least squares over all matches since
-/// the last clear(). The columns tell nothing for certain, since the depths go along with them.
+/// the last correction. The columns tell nothing for certain, since the depths go along with them.
 class RightStampError {
  public:
   struct Estimate {
@@ -23,17 +23,23 @@ class RightStampError {
   /// One match: where vision::EpipolarError::basis() has it, how far the right row is below that of the
   /// stamp, and by how much an error of the stamp lowers the row, px/s.
   void add(const Eigen::Vector3d& basis, double error_px, double px_per_s);
-  /// Draws the conclusion from the matches added.
+  /// Draws the conclusion from the matches added. An error that is certain is taken off from now on, and what
+  /// is left of it is estimated anew.
   void learn();
-  /// Nothing until the rig has moved enough to tell.
+  /// Of the stamps as they come. Nothing until enough matches have been seen.
   std::optional<Estimate> estimate() const;
-  void clear() { *this = RightStampError(); }
+  /// What is to be taken off the stamps; 0 where no error is certain.
+  double takenOff_s() const { return taken_off_s_; }
 
  private:
+  /// Of what has not been taken off yet.
+  std::optional<Estimate> rest() const;
+
   Eigen::Matrix4d information_ = Eigen::Matrix4d::Zero();  ///< of (nod, roll, focal length, time), in matches
   Eigen::Vector4d moments_ = Eigen::Vector4d::Zero();
   Eigen::Vector4d coefficients_ = Eigen::Vector4d::Zero();  ///< px, px, px, s
   double squares_px2_ = 0.0;                                ///< of the errors, weighted
+  double taken_off_s_ = 0.0;
 };
 
 }  // namespace stereo_nav::odometry

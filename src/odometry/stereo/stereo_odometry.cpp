@@ -36,7 +36,7 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
   if (!map_.empty()) checkOrder(frame, motion_.previousTimes().left_s);
   FrameResult result;
   StageClock clock(result.stage_times);
-  const StereoImages images(frame, params_.pyramid_levels, right_stamp_error_s_);
+  const StereoImages images(frame, params_.pyramid_levels, matcher_.stampError().takenOff_s());
   shutter_.setReadout(frame.readout_s);
   clock.lap("pyramid");
 
@@ -58,27 +58,13 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
       handleLoss(images, result);
     }
   }
-  judgeRightStamps(result);
+  reportRightStamps(matcher_.stampError(), result);
   result.T_start_camera = T_camera_world_.inverse();
   result.keyframe_id = keyframe_id_;
   result.time_offset_compensated = images.times.rightOffset_s() != 0.0;
   reportTracks(follower_.tracks(), motion_.previousView().T_camera_world, result);
   if (result.keyframe) reportKeyframe(follower_.tracks(), map_, calibration_, result);
   return result;
-}
-
-void StereoOdometry::judgeRightStamps(FrameResult& result) {
-  result.right_stamps_are_corrected = right_stamp_error_s_ != 0.0;
-  const auto estimate = matcher_.stampError().estimate();
-  if (!estimate) {
-    if (result.right_stamps_are_corrected) result.right_stamp_error_s = right_stamp_error_s_;
-    return;
-  }
-  result.right_stamp_error_s = right_stamp_error_s_ + estimate->error_s;
-  result.right_stamp_sigma_s = estimate->sigma_s;
-  if (!estimate->isCertain()) return;
-  right_stamp_error_s_ += estimate->error_s;
-  matcher_.stampError().clear();
 }
 
 std::optional<PoseEstimate> StereoOdometry::estimatePose(const StereoImages& images, const MotionPrior& prior,
@@ -237,9 +223,7 @@ void StereoOdometry::updateMap(const StereoImages& images, const MotionPrior& pr
   map_.refine();
   follower_.updatePoints(map_);
   const vision::StereoView view = map_.newest().view;
-  // What is subtracted from the rows is that with which they were matched.
-  matcher_.learnStamps(view, prior.twistAt(view), prior.right_time_offset_s, follower_.tracks());
-  matcher_.learnRows(view, follower_.tracks());
+  matcher_.learn(view, prior, follower_.tracks());
   clock.lap("window");
 
   result.T_previous_current = prior.T_previous_world * view.T_camera_world.inverse();

@@ -66,8 +66,6 @@ class StereoOdometry : public Odometry {
   void addLandmarks(const StereoImages& images, FrameResult& result);
   /// Waits for the features seen before, or begins a new map.
   void handleLoss(const StereoImages& images, FrameResult& result);
-  /// Reports what is known of the error of the right stamps; one beyond doubt is taken off from now on.
-  void judgeRightStamps(FrameResult& result);
   /// Begins a map at the pose to which the rig has coasted.
   void startMapCoasting(const StereoImages& images, FrameResult& result);
   /// Sets the pose to the one to which the rig has coasted. Returns whether its velocity is known.
@@ -95,7 +93,6 @@ class StereoOdometry : public Odometry {
   int confirmations_ = 0;                   ///< frames that agreed with the map in use
   Eigen::Isometry3d T_camera_world_ = Eigen::Isometry3d::Identity();  ///< of the newest frame, as reported
 
-  double right_stamp_error_s_ = 0.0;  ///< that is taken off the right stamps
   std::uint32_t keyframe_id_ = 0;
   std::size_t keyframe_features_ = 0;  ///< tracks of the last keyframe
   bool previous_is_keyframe_ = false;  ///< whether the last frame that had a pose was a keyframe

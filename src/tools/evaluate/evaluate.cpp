@@ -17,6 +17,9 @@
 #include "tools/evaluate/evaluate_options.h"
 #include "tools/evaluate/evaluate_run.h"
 #include "tools/evaluate/laser_run.h"
+#ifdef STEREO_NAV_MAPPING
+#include "tools/evaluate/mono_run.h"
+#endif
 #include "tools/evaluate/wheel_run.h"
 
 namespace stereo_nav::tools {
@@ -114,6 +117,7 @@ void printSummary(const eval::Evaluation& evaluation, const eval::TimingSummary&
                 timing.p99_ms);
     return;
   }
+  if (method == EvaluatedMethod::kMono) printConsistency(summary);
   std::printf("  %-28s %.1f features, %.1f inliers\n", "mean per frame", summary.features_mean,
               summary.inliers_mean);
   std::printf("  %-28s %.2f ms median, %.2f ms p95\n", "odometry per frame", timing.median_ms, timing.p95_ms);
@@ -156,7 +160,11 @@ int run(int argc, char** argv) {
       return writeResults(*options, runWheelEvaluation(*options));
     case EvaluatedMethod::kLaser:
       return writeResults(*options, runLaserEvaluation(*options));
-    case EvaluatedMethod::kVisual:
+#ifdef STEREO_NAV_MAPPING
+    case EvaluatedMethod::kMono:
+      return writeResults(*options, runMonoEvaluation(*options, showProgress));
+#endif
+    default:
       break;
   }
   return writeResults(*options, runEvaluation(*options, showProgress));

@@ -49,17 +49,23 @@ void readMethod(const po::variables_map& values, EvaluateOptions& options) {
   const std::map<std::string, std::pair<EvaluatedMethod, std::string>> methods = {
       {"visual", {EvaluatedMethod::kVisual, "vo.yaml"}},
       {"wheel", {EvaluatedMethod::kWheel, "wheel.yaml"}},
+#ifdef STEREO_NAV_MAPPING
+      {"mono", {EvaluatedMethod::kMono, "mono_slam.yaml"}},
+#endif
       {"laser", {EvaluatedMethod::kLaser, "laser_odometry.yaml"}}};
   const auto chosen = methods.find(method);
   if (chosen == methods.end())
-    throw InputError("--method must be visual, wheel or laser, not '" + method + "'");
+    throw InputError("--method must be visual, wheel, laser or mono, not '" + method + "'");
   options.method = chosen->second.first;
   const bool wheel = options.method == EvaluatedMethod::kWheel;
   if (values.count("rig") != 0) options.rig = values["rig"].as<std::string>();
   if (wheel && options.rig.empty())
     throw InputError("--method wheel needs --rig FILE, a rig file with the section drive");
-  if (options.no_prior && options.method != EvaluatedMethod::kLaser)
-    throw InputError("--no-prior is for --method laser: the other methods take no wheels for a prior");
+  const bool takes_prior =
+      options.method == EvaluatedMethod::kLaser || options.method == EvaluatedMethod::kMono;
+  if (options.no_prior && !takes_prior)
+    throw InputError(
+        "--no-prior is for --method laser or mono: the other methods take no wheels for a prior");
   options.config = ros_io::configFile(values.count("config") != 0 ? values["config"].as<std::string>()
                                                                   : chosen->second.second);
 }
@@ -91,13 +97,14 @@ po::options_description describeOptions(EvaluateOptions& options) {
       ("help,h", "this text")  //
       ("method", po::value<std::string>()->default_value("visual"),
        "visual: the odometry of the images; wheel: that of wheel_ticks, with imu/data where the bag has it; laser: that "
-       "of scan, with wheel/odom and imu/data where the bag has them")  //
+       "of scan, with wheel/odom and imu/data where the bag has them; mono: EKF-SLAM with the left camera alone, with "
+       "wheel/odom and imu/data where the bag has them")  //
       ("rig", po::value<std::string>(),
        "rig file: for --method wheel its section drive, which describes the wheels; for visual its section uncertainty, "
        "which says how good the calibration is. The cameras' mounting is read from the bag.")  //
       ("config", po::value<std::string>(),
        "parameters of the odometry: a path, or a file of the package's config folder (default: vo.yaml, "
-       "wheel.yaml or laser_odometry.yaml)")  //
+       "wheel.yaml, laser_odometry.yaml or mono_slam.yaml)")  //
       ("disparity-config", po::value<std::string>()->default_value("disparity.yaml"),
        "parameters of the disparity map, where the odometry uses one; looked up in the same way")  //
       ("disparity-from", po::value<std::string>(),
@@ -123,7 +130,7 @@ po::options_description describeOptions(EvaluateOptions& options) {
       ("no-imu", po::bool_switch(&options.no_imu),
        "the path of vision alone, as if the recording held no IMU")  //
       ("no-prior", po::bool_switch(&options.no_prior),
-       "the path of the laser alone, as if the recording held neither wheels nor IMU")  //
+       "the path of the laser, or of the camera, alone, as if the recording held neither wheels nor IMU")  //
       ("segments", po::value<std::string>(),
        "lengths in m of pieces that the errors are taken over as well, e.g. 5,10; they go to summary.json")  //
       ("repeat", po::value<int>(&options.repeat), "run this many times, for the timing; results must agree");

@@ -9,7 +9,7 @@
 namespace stereo_nav::tools {
 
 /// What is run on the recording.
-enum class EvaluatedMethod { kVisual, kWheel, kLaser };
+enum class EvaluatedMethod { kVisual, kWheel, kLaser, kMono };
 
 struct EvaluateOptions {
   std::string bag;
@@ -28,8 +28,8 @@ struct EvaluateOptions {
   ros_io::RecordingOptions part;
   bool on_floor = false;                  ///< the base stays on the floor on which it starts
   std::vector<double> segment_lengths_m;  ///< of the pieces that errors are taken over besides the usual ones
-  bool no_prior = false;                  ///< by the laser alone, though the recording holds wheels or an IMU
-  bool no_imu = false;                    ///< by vision alone, though the recording holds an IMU
+  bool no_prior = false;  ///< by laser or camera alone, though the recording holds wheels or an IMU
+  bool no_imu = false;    ///< by vision alone, though the recording holds an IMU
   int repeat = 1;
 };
 

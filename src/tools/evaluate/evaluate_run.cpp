@@ -140,6 +140,26 @@ bool samePoses(const std::vector<eval::FrameRecord>& a, const std::vector<eval::
   });
 }
 
+/// All of a run but its frames.
+EvaluationRun begun(const EvaluateOptions& options, const ros_io::Recording& recording,
+                    const ros_io::StereoProcessing& processing, const Eigen::Isometry3d& T_base_camera) {
+  EvaluationRun run;
+  run.unpaired_images = recording.unpairedImages();
+  run.input.input = std::filesystem::path(options.bag).filename().string();
+  run.input.config = std::filesystem::path(options.config).filename().string();
+  run.input.T_base_camera = T_base_camera;
+  run.input.camera_frame = recording.leftInfo().header.frame_id;
+  run.input.notes = recording.notes();
+  run.input.stretches = recording.stretches();
+  run.input.notes.insert(run.input.notes.end(), processing.notes().begin(), processing.notes().end());
+  run.input.ground_truth =
+      groundTruthOfBase(recording, options.bag, options.ground_truth, options.ground_truth_frame);
+  run.input.segment_lengths_m = options.segment_lengths_m;
+  run.input.truth_sigma_m = options.truth_sigma_m;
+  run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
+  return run;
+}
+
 }  // namespace
 
 EvaluationRun runEvaluation(const EvaluateOptions& options,
@@ -156,21 +176,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   ImuMounting imu = imuMounting(recording);
   if (options.no_imu && !recording.imu().empty()) imu.problem = "--no-imu was asked for";
 
-  EvaluationRun run;
-  run.unpaired_images = recording.unpairedImages();
-  run.input.input = std::filesystem::path(options.bag).filename().string();
-  run.input.config = std::filesystem::path(options.config).filename().string();
-  run.input.T_base_camera = T_base_camera;
-  run.input.camera_frame = recording.leftInfo().header.frame_id;
-  run.input.notes = recording.notes();
-  run.input.stretches = recording.stretches();
-  run.input.notes.insert(run.input.notes.end(), processing.notes().begin(), processing.notes().end());
-  run.input.ground_truth =
-      groundTruthOfBase(recording, options.bag, options.ground_truth, options.ground_truth_frame);
-  run.input.segment_lengths_m = options.segment_lengths_m;
-  run.input.truth_sigma_m = options.truth_sigma_m;
-  run.input.truth_sigma_rad = options.truth_sigma_deg / kDegPerRad;
-
+  EvaluationRun run = begun(options, recording, processing, T_base_camera);
   double right_stamp_error_s = 0.0;
   for (int repetition = 0; repetition < options.repeat;) {
     Run pass(recording, processing, config, options.disparity_from, T_base_camera, pose_params, imu,

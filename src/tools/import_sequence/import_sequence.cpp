@@ -18,6 +18,7 @@
 #include "tools/common/program.h"
 #include "tools/import_sequence/derived_sequence.h"
 #include "tools/import_sequence/laser_sequence.h"
+#include "tools/import_sequence/monoslam_sequence.h"
 #include "tools/import_sequence/sequence_bag.h"
 #include "tools/import_sequence/sixteen_bits.h"
 #include "tools/import_sequence/wheel_sequence.h"
@@ -28,8 +29,8 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr const char* kUsage =
-    "usage: import_sequence --format euroc|kitti|kitti_raw|images|optiodom|carmen DIR --output BAG [options]\n"
-    "Turns a public recording into a bag with the topics of a stereo rig, of wheels, or of a laser.\n\n"
+    "usage: import_sequence --format euroc|kitti|kitti_raw|images|optiodom|carmen|monoslam DIR --output BAG [options]\n"
+    "Turns a public recording into a bag with the topics of a stereo rig, of wheels, of a laser, or of one camera.\n\n"
     "  euroc   DIR/cam0, cam1 (data.csv, data/, sensor.yaml), imu0, state_groundtruth_estimate0;\n"
     "          raw images, rectified downstream by the camera_infos written\n"
     "  kitti   DIR/image_0, image_1, calib.txt, times.txt, poses.txt (KITTI odometry); time 0 becomes\n"
@@ -45,12 +46,15 @@ constexpr const char* kUsage =
     "  optiodom  DIR = a run, SET_run-NN.csv, with SET_metadata.csv beside it: pulses of three omni wheels (omni3)\n"
     "          or of two on one axle (diff), and motion capture; time 0 becomes 1000 s; of the options --rig alone applies\n"
     "  carmen  DIR = a log (may be gzipped) with FLASER and ODOM lines, whose FLASER poses a SLAM system corrected:\n"
-    "          scan, wheel/odom and, as ground truth, the corrected poses; none of the options applies\n\n"
+    "          scan, wheel/odom and, as ground truth, the corrected poses; none of the options applies\n"
+    "  monoslam  DIR/frames = the public MonoSLAM sequence, 320x240, with its wide-angle lens: camera/left alone, at 30 Hz;\n"
+    "          none of the options applies\n\n"
     "base_link is the IMU (the default for euroc and kitti_raw) or the left camera with x forward, y left, z up (REP-103;\n"
     "the default for the others). The ground truth gives poses of base_link.\n\nOptions";
 
 constexpr const char* kOptiodom = "optiodom";
 constexpr const char* kCarmen = "carmen";
+constexpr const char* kMonoslam = "monoslam";
 
 std::atomic<bool> interrupted{false};
 
@@ -90,9 +94,10 @@ bool isOneFile(const std::string& format) {
 }
 
 void checkArguments(const Arguments& arguments) {
-  const std::set<std::string> formats = {"euroc", "kitti", "kitti_raw", "images", kOptiodom, kCarmen};
+  const std::set<std::string> formats = {"euroc",   "kitti", "kitti_raw", "images",
+                                         kOptiodom, kCarmen, kMonoslam};
   if (formats.count(arguments.format) == 0) {
-    throw InputError("--format must be euroc, kitti, kitti_raw, images, optiodom or carmen" +
+    throw InputError("--format must be euroc, kitti, kitti_raw, images, optiodom, carmen or monoslam" +
                      (arguments.format.empty() ? std::string() : ", not '" + arguments.format + "'"));
   }
   if (arguments.folder.empty()) throw InputError("no DIR given");
@@ -192,6 +197,11 @@ int run(int argc, char** argv) {
   { const AtomicFile writable(arguments.output); }  // before the work, not after it
   if (arguments.format == kOptiodom) return importWheels(arguments);
   if (arguments.format == kCarmen) return importLaser(arguments);
+  if (arguments.format == kMonoslam) {
+    std::printf("%s: %zu images\n", arguments.output.c_str(),
+                importMonoslam(arguments.folder, arguments.output));
+    return 0;
+  }
   Sequence sequence = readSequence(arguments);
   checkCalibration(arguments, sequence);
   useFullRange(sequence);

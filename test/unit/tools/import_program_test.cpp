@@ -52,7 +52,7 @@ TEST_F(ImportProgram, refusesBadArguments) {
     const std::string line = failureOf(arguments);
     EXPECT_NE(line.find(part), std::string::npos) << line;
   };
-  expect("", "--format must be euroc, kitti, kitti_raw, images, optiodom or carmen");
+  expect("", "--format must be euroc, kitti, kitti_raw, images, optiodom, carmen or monoslam");
   expect("--format rosbag " + to("out.bag"), "not 'rosbag'");
   expect("--format kitti --output " + (folder_ / "out.bag"), "no DIR given");
   expect("--format kitti " + folder_.path(), "no --output BAG given");

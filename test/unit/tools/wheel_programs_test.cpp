@@ -130,7 +130,7 @@ TEST_F(WheelPrograms, whatCannotBeUsedIsNamed) {
   expectRefusal(EVALUATE, bag + " --method wheel", 2, "--method wheel needs --rig FILE");
   expectRefusal(EVALUATE, bag + rig, 2, "no topic camera/left/image_raw");
   expectRefusal(EVALUATE, bag + " --method laser", 2, "no topic scan");
-  expectRefusal(EVALUATE, bag + " --method sonar", 2, "must be visual, wheel or laser, not 'sonar'");
+  expectRefusal(EVALUATE, bag + " --method sonar", 2, "must be visual, wheel, laser or mono, not 'sonar'");
   expectRefusal(EVALUATE, bag + " --no-prior", 2, "--no-prior is for --method laser");
   expectRefusal(EVALUATE, bag + " --method wheel --segments 5,x" + rig, 2, "--segments must be lengths in m");
   expectRefusal(EVALUATE, bag + " --method wheel --rig " + (folder_ / "empty.yaml"), 2,

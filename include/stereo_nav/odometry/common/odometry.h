@@ -106,13 +106,13 @@ struct FrameResult {
   std::uint32_t inliers = 0;              ///< features that the motion was computed from
   double reprojection_error_px = std::numeric_limits<double>::quiet_NaN();      ///< RMS over the inliers
   double rotation_disagreement_rad = std::numeric_limits<double>::quiet_NaN();  ///< between images and IMU
-  /// Constant error of the right images' stamps, stamp minus true time, and its sigma; NaN where unknown.
+  /// Constant error of the right images' stamps, stamp minus true time; NaN where unknown.
   double right_stamp_error_s = std::numeric_limits<double>::quiet_NaN();
-  double right_stamp_sigma_s = std::numeric_limits<double>::quiet_NaN();
+  double right_stamp_sigma_s = std::numeric_limits<double>::quiet_NaN();  ///< of that error
   bool right_stamps_are_corrected = false;  ///< the error is beyond doubt, and later stamps are freed from it
-  bool time_offset_compensated = false;  ///< whether the images' different times were taken into account
-  std::vector<FeatureReport> features;   ///< one for each feature
-  std::vector<StageTime> stage_times;    ///< in the order in which the stages ran
+  bool time_offset_compensated = false;     ///< whether the images' different times were taken into account
+  std::vector<FeatureReport> features;      ///< one for each feature
+  std::vector<StageTime> stage_times;       ///< in the order in which the stages ran
 };
 
 /// What the nodes and tools know of a visual odometry. Not thread-safe: one caller feeds it, frames in order
