@@ -3,8 +3,8 @@
 #
 #   scripts/loop_results.sh [WORK_DIR [SEEDS]]
 #
-# Three laps of the furnished room with the thesis' cameras and with webcams, then a corridor of like doors, in which no loop must
-# be found, with SEEDS seeds (default: 20). WORK_DIR (default: a new temporary folder) keeps what `find_loops` writes; recordings
+# Three laps of the furnished room with the thesis' cameras, with free-running ones and with webcams, the office, then a corridor of
+# like doors, in which no loop must be found, with SEEDS seeds (default: 20). WORK_DIR (default: a new temporary folder) keeps what `find_loops` writes; recordings
 # are removed. Prints what `find_loops` prints. Takes about 40 minutes. The package must be built (scripts/build.sh).
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/environment.sh"
@@ -24,7 +24,9 @@ measure() {
 }
 
 measure three_laps 1
+measure three_laps 2 --set timing.free_running=true --set timing.rate_hz=12 --set sensor.rolling_shutter_ms=20
 measure three_laps_webcam 1 --set timing.rate_hz=10
+measure office 1 --set timing.rate_hz=8
 for ((seed = 1; seed <= seeds; ++seed)); do
   measure like_doors "$seed" --set timing.rate_hz=6
 done

@@ -1,5 +1,6 @@
 #include "mapping/loop/loop_finder.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -66,7 +67,11 @@ std::size_t LoopFinder::endOfPast() const {
 std::size_t LoopFinder::agreeing(const LoopCandidate& candidate) const {
   const double bound = chiSquareQuantile(kFields, params_.acceptance.consistency_share);
   std::size_t agreeing = 0;
+  const auto near = 2 * static_cast<std::size_t>(params_.acceptance.within_keyframes);
   for (const LoopCandidate& earlier : verified_) {
+    // Places of two laps are as uncertain against each other as the way between them: they would agree with
+    // anything.
+    if (std::max(earlier.place, candidate.place) - std::min(earlier.place, candidate.place) > near) continue;
     const auto between_places = chain_.relative(candidate.place, earlier.place);
     const auto between_queries = chain_.relative(earlier.query, candidate.query);
     if (!between_places || !between_queries) continue;
