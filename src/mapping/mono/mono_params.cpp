@@ -29,7 +29,7 @@ void PatchSearchParams::describe(ParameterVisitor& visitor) {
                "half axes of the ellipse that is searched are at most this long");
 }
 
-void RansacParams::describe(ParameterVisitor& visitor) {
+void OnePointRansacParams::describe(ParameterVisitor& visitor) {
   visitor.real("threshold_px", threshold_px, {0.1, 20.0}, "px",
                "a match agrees with a hypothesis that predicts it within this");
   visitor.real("probability", probability, {0.5, 0.9999}, "",

@@ -32,7 +32,7 @@ struct PatchSearchParams {
 };
 
 /// Which matches agree (Civera, Grasa, Davison and Montiel 2010).
-struct RansacParams {
+struct OnePointRansacParams {
   double threshold_px = 3.0;
   double probability = 0.99;
   double chi_square = 5.99;
@@ -56,7 +56,7 @@ struct MonoParams {
   MotionNoise motion;
   MeasuredMotionParams measured;
   PatchSearchParams search;
-  RansacParams ransac;
+  OnePointRansacParams ransac;
 
   void describe(ParameterVisitor& visitor);
 };

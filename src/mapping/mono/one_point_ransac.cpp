@@ -42,7 +42,7 @@ std::vector<std::size_t> agreeing(const MonoState& state, const ImageModel& mode
 
 std::vector<std::size_t> lowInnovationInliers(const MonoState& state, const ImageModel& model,
                                               const std::vector<PixelMatch>& matches,
-                                              const RansacParams& params, std::mt19937& random) {
+                                              const OnePointRansacParams& params, std::mt19937& random) {
   std::vector<std::size_t> order(matches.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
@@ -61,7 +61,7 @@ std::vector<std::size_t> lowInnovationInliers(const MonoState& state, const Imag
 
 std::vector<PixelMatch> highInnovationInliers(const MonoState& corrected, const ImageModel& model,
                                               const std::vector<PixelMatch>& matches,
-                                              const RansacParams& params) {
+                                              const OnePointRansacParams& params) {
   std::vector<PixelMatch> inliers;
   for (const PixelMatch& match : matches) {
     const Eigen::Matrix2d S =

@@ -13,12 +13,12 @@ namespace stereo_nav::mapping {
 /// number of hypotheses follows from the share of agreeing matches, and has a budget.
 std::vector<std::size_t> lowInnovationInliers(const MonoState& state, const ImageModel& model,
                                               const std::vector<PixelMatch>& matches,
-                                              const RansacParams& params, std::mt19937& random);
+                                              const OnePointRansacParams& params, std::mt19937& random);
 
 /// Of matches that were looked for anew in the smaller ellipses of a corrected state, those that it explains
 /// within its own uncertainty: near landmarks, whose innovation was large since their depth was not known.
 std::vector<PixelMatch> highInnovationInliers(const MonoState& corrected, const ImageModel& model,
                                               const std::vector<PixelMatch>& matches,
-                                              const RansacParams& params);
+                                              const OnePointRansacParams& params);
 
 }  // namespace stereo_nav::mapping

@@ -88,7 +88,8 @@ std::string unconfirmed() {
   return "the map has just begun: its first motion is believed once the next frame confirms it";
 }
 
-void reportRightStamps(const RightStampError& stamps, FrameResult& result) {
+void reportTimes(const FrameTimes& times, const RightStampError& stamps, FrameResult& result) {
+  result.time_offset_compensated = times.rightOffset_s() != 0.0;
   result.right_stamps_are_corrected = stamps.takenOff_s() != 0.0;
   if (result.right_stamps_are_corrected) result.right_stamp_error_s = stamps.takenOff_s();
   const auto estimate = stamps.estimate();

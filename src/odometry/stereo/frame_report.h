@@ -4,6 +4,7 @@
 
 #include "odometry/stereo/local_map.h"
 #include "odometry/stereo/right_stamp_error.h"
+#include "odometry/stereo/stereo_images.h"
 #include "odometry/stereo/track.h"
 #include "stereo_nav/odometry/common/odometry.h"
 
@@ -28,7 +29,8 @@ std::string moverFillsView();
 std::string ambiguous();
 std::string unconfirmed();
 
-/// What is known of the right stamps; without an estimate, what is taken off them.
-void reportRightStamps(const RightStampError& stamps, FrameResult& result);
+/// Whether the images of a frame were taken at different times, and what is known of the right stamps:
+/// without an estimate, what is taken off them.
+void reportTimes(const FrameTimes& times, const RightStampError& stamps, FrameResult& result);
 
 }  // namespace stereo_nav::odometry

@@ -58,10 +58,9 @@ FrameResult StereoOdometry::process(const StereoFrame& frame) {
       handleLoss(images, result);
     }
   }
-  reportRightStamps(matcher_.stampError(), result);
   result.T_start_camera = T_camera_world_.inverse();
   result.keyframe_id = keyframe_id_;
-  result.time_offset_compensated = images.times.rightOffset_s() != 0.0;
+  reportTimes(images.times, matcher_.stampError(), result);
   reportTracks(follower_.tracks(), motion_.previousView().T_camera_world, result);
   if (result.keyframe) reportKeyframe(follower_.tracks(), map_, calibration_, result);
   return result;

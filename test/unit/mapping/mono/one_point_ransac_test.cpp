@@ -39,7 +39,7 @@ struct DisturbedView {
 TEST(OnePointRansac, WrongMatchesAreNamedAndRightOnesKept) {
   DisturbedView view(12, 5);
   std::mt19937 random(1);
-  RansacParams params;
+  OnePointRansacParams params;
   params.threshold_px = 2.0;
   const auto inliers = lowInnovationInliers(view.state, view.model, view.matches, params, random);
   EXPECT_GE(inliers.size(), 15U);
