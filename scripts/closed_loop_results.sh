@@ -18,7 +18,7 @@ set +u
 source "${STEREO_NAV_BUILD:-$STEREO_NAV_ROOT/build}/devel/setup.bash"
 set -u
 
-declare -A courses=([arena]="arena" [random]="loop --random 10" [box]="box_in_way" [dead_end]="dead_end" [crossing]="crossing")
+declare -A courses=([arena]="arena" [random]="loop --random 10" [box]="goals/box_in_way" [dead_end]="goals/dead_end" [crossing]="goals/crossing")
 for course in arena random box dead_end crossing; do
   for odometry in truth vo.yaml; do
     for ((seed = 1; seed <= seeds; ++seed)); do

@@ -2,21 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/angles.h"
 #include "core/processor_time.h"
-#include "eval/alignment.h"
 #include "mapping/loop/landmark_match.h"
 #include "mapping/loop/loop_finder.h"
-#include "odometry/method/keyframe_maker.h"
-#include "ros/stereo_processing.h"
-#include "stereo_nav/core/input_error.h"
-#include "stereo_nav/core/parameters.h"
-#include "stereo_nav/ros/topics.h"
-#include "tools/common/recorded_rig.h"
+#include "tools/common/recorded_keyframes.h"
 #include "tools/find_loops/pair_picture.h"
 
 namespace stereo_nav::tools {
@@ -35,16 +28,6 @@ struct Seen {
   std::vector<std::vector<std::uint8_t>> images;                 ///< as JPEG
   std::vector<std::optional<Eigen::Isometry3d>> T_world_camera;  ///< true ones
 };
-
-odometry::StereoFrame frameOf(const ros_io::StereoProcessing& processing, const ros_io::RawPair& pair) {
-  odometry::StereoFrame frame;
-  frame.left_time_s = pair.left_time_s;
-  frame.right_time_s = pair.right_time_s;
-  frame.readout_s = pair.rolling_shutter_s;
-  frame.left = processing.rectifyLeft(pair.left);
-  frame.right = processing.rectifyRight(pair.right);
-  return frame;
-}
 
 /// Corners of the query and of the place that agree with the pose that was found.
 std::vector<std::pair<cv::Point2f, cv::Point2f>> agreeingCorners(const Seen& seen,
@@ -100,45 +83,21 @@ void addKeyframe(const vision::Keyframe& keyframe, const cv::Mat& left, Seen& se
 
 LoopRun findLoopsInRecording(const FindLoopsOptions& options,
                              const std::function<void(std::size_t, std::size_t)>& progress) {
-  const ros_io::Recording recording(options.input, options.part);
-  const ros_io::StereoProcessing processing(recording.leftInfo(), recording.rightInfo(), {});
-  const std::string& camera_frame = recording.leftInfo().header.frame_id;
-  const Eigen::Isometry3d T_base_camera =
-      requireTransform(recording, options.input, ros_io::frames::kBase, camera_frame);
-  ImuMounting imu = imuMounting(recording);
-  if (options.no_imu && !recording.imu().empty()) imu.problem = "--no-imu was asked for";
-  const Trajectory truth =
-      groundTruthOfBase(recording, options.input, options.ground_truth, options.ground_truth_frame);
-
+  KeyframeRun recorded({options.input, options.config, options.part, options.ground_truth,
+                        options.ground_truth_frame, options.no_imu});
   LoopRun run;
-  run.notes = recording.notes();
-  run.notes.insert(run.notes.end(), processing.notes().begin(), processing.notes().end());
-  if (!imu.problem.empty()) run.notes.push_back("the IMU is set aside: " + imu.problem);
-  odometry::WatchedOdometry odometry(odometry::loadOdometryConfig(options.config), processing.calibration(),
-                                     {T_base_camera.linear(), imu.R_base_imu});
-  odometry::KeyframeMaker maker;
-  ImuFeed feed(recording);
-  const auto seen = std::make_shared<Seen>(options.loop, processing.calibration());
-  std::size_t frames = 0;
-  recording.forEachPair([&](const ros_io::RawPair& pair) {
-    const odometry::StereoFrame frame = frameOf(processing, pair);
-    if (imu.problem.empty()) feed.feed(std::max(pair.left_time_s, pair.right_time_s), odometry);
-    const odometry::FrameResult result = odometry.process(frame);
-    const double start_ms = processorTime_ms();
-    const auto keyframe = maker.add(frame, result);
-    if (keyframe) {
-      run.describe_ms.push_back(processorTime_ms() - start_ms);
-      const auto T_world_base = eval::poseAt(truth, pair.left_time_s);
-      seen->T_world_camera.emplace_back();
-      if (T_world_base) seen->T_world_camera.back() = *T_world_base * T_base_camera;
-      addKeyframe(*keyframe, frame.left, *seen, run);
-    }
-    progress(++frames, recording.pairs());
-  });
-  if (!odometry.imuProblem().empty())
-    run.notes.push_back("the IMU contradicts the images and was set aside: " + odometry.imuProblem());
+  const auto seen = std::make_shared<Seen>(options.loop, recorded.calibration());
+  recorded.forEachFrame(
+      [&](const RecordedFrame& frame) {
+        if (!frame.keyframe) return;
+        run.describe_ms.push_back(frame.describe_ms);
+        seen->T_world_camera.push_back(frame.T_world_camera);
+        addKeyframe(*frame.keyframe, frame.frame.left, *seen, run);
+      },
+      progress);
+  run.notes = recorded.notes();
   run.index_bytes = seen->finder.index().bytes();
-  if (!truth.empty()) setTruth(options, seen, run);
+  if (!recorded.groundTruth().empty()) setTruth(options, seen, run);
   run.picture = [seen](const LoopCandidate& candidate) {
     return pairPicture(cv::imdecode(seen->images[candidate.query], cv::IMREAD_GRAYSCALE),
                        cv::imdecode(seen->images[candidate.place], cv::IMREAD_GRAYSCALE),
