@@ -104,7 +104,7 @@ TEST(CaptureLaunch, TwoCalibrationsThatMakeNoPairAreNamed) {
   const CaptureDiagnostics diagnostics("twice");
   EXPECT_TRUE(spinUntil([&] { return diagnostics.says("Stereo pairs", "baseline"); }))
       << diagnostics.textOf("Stereo pairs");
-  EXPECT_FALSE(diagnostics.says("Left camera", "calibration"));
+  EXPECT_FALSE(diagnostics.says("Left camera", "no calibration"));
 }
 
 }  // namespace
