@@ -104,7 +104,7 @@ class Run {
   /// By how much the right stamps are still off, stamp minus true time; 0 where nothing speaks for it.
   double rightStampError_s() const { return found_right_stamp_error_s_; }
   /// What the frames told of their uncertainty.
-  RelativeCovariance uncertainty() const { return uncertainty_; }
+  RelativeCovariance takeUncertainty() { return std::move(uncertainty_); }
 
  private:
   /// `latest` is what the thesis' program gets: the map of the frame before, since this one's is still being
@@ -182,6 +182,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
     Run pass(recording, processing, config, options.disparity_from, T_base_camera, pose_params, imu,
              right_stamp_error_s);
     std::vector<eval::FrameRecord> frames;
+    frames.reserve(recording.pairs());
     recording.forEachPair([&](const ros_io::RawPair& pair) {
       frames.push_back(pass.handle(pair));
       run.timings.push_back(frames.back().timing);
@@ -201,7 +202,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
     }
     if (repetition++ == 0) {
       run.input.frames = std::move(frames);
-      run.input.relative_covariance = pass.uncertainty();
+      run.input.relative_covariance = pass.takeUncertainty();
       if (pass.camerasAreSwapped()) run.input.notes.push_back(ros_io::swappedCameras());
     } else if (!samePoses(run.input.frames, frames)) {
       throw std::logic_error("two runs on the same recording differ; this is a defect of the odometry");
