@@ -9,6 +9,7 @@
 #include "kinematics/drive_params.h"
 #ifdef STEREO_NAV_MAPPING
 #include "mapping/loop/loop_params.h"
+#include "mapping/mono/mono_params.h"
 #endif
 #ifdef STEREO_NAV_NAVIGATION
 #include "navigation/planner/planner_params.h"
@@ -169,8 +170,10 @@ void printOthers() {
   printTable(nodes::SendPathParams());
 #endif
 #ifdef STEREO_NAV_MAPPING
-  printHeading("## Recognising places", "`config/loop.yaml` and files like it, read by `find_loops`.");
+  printHeading("## Recognising places", "`config/loop.yaml` and files like it, read by `find_loops` and `build_map`.");
   printTable(mapping::LoopParams());
+  printHeading("## One camera", "`config/mono_slam.yaml` and files like it, read by `evaluate --method mono`.");
+  printTable(mapping::MonoParams());
 #endif
   printHeading("## `rig_transforms`",
                "Publishes the mounting of the rig file `~rig` as static transforms and checks all of the "
