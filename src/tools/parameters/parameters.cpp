@@ -170,9 +170,11 @@ void printOthers() {
   printTable(nodes::SendPathParams());
 #endif
 #ifdef STEREO_NAV_MAPPING
-  printHeading("## Recognising places", "`config/loop.yaml` and files like it, read by `find_loops` and `build_map`.");
+  printHeading("## Recognising places",
+               "`config/loop.yaml` and files like it, read by `find_loops` and `build_map`.");
   printTable(mapping::LoopParams());
-  printHeading("## One camera", "`config/mono_slam.yaml` and files like it, read by `evaluate --method mono`.");
+  printHeading("## One camera",
+               "`config/mono_slam.yaml` and files like it, read by `evaluate --method mono`.");
   printTable(mapping::MonoParams());
 #endif
   printHeading("## `rig_transforms`",
