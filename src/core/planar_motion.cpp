@@ -1,5 +1,7 @@
 #include "core/planar_motion.h"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace stereo_nav {
@@ -69,6 +71,11 @@ Eigen::Matrix3d inAxesOf(const Eigen::Isometry2d& T_odom_base, const Eigen::Matr
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = T_odom_base.linear();
   return R * covariance * R.transpose();
+}
+
+double largestSigma(const Eigen::Matrix2d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().y()));
 }
 
 Matrix6d spatialCovariance(const Eigen::Matrix3d& planar) {

@@ -31,6 +31,9 @@ Eigen::Matrix3d leftJacobianPlanar(const Eigen::Vector3d& twist);
 /// The covariance of a pose, given in the axes of the base, in those of odom.
 Eigen::Matrix3d inAxesOf(const Eigen::Isometry2d& T_odom_base, const Eigen::Matrix3d& covariance);
 
+/// The largest deviation that a covariance in the plane has in any direction.
+double largestSigma(const Eigen::Matrix2d& covariance);
+
 /// The covariance of a pose in the plane (x, y, yaw) as one of a pose in space (x, y, z, and rotations about
 /// them): nothing is said about the other three, whose variances are 1e6.
 Matrix6d spatialCovariance(const Eigen::Matrix3d& planar);

@@ -2,10 +2,10 @@
 
 #include <tf2/utils.h>
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/planar_motion.h"
 
 namespace stereo_nav::nodes {
 namespace {
@@ -65,8 +65,7 @@ double positionSigma(const nav_msgs::Odometry& odometry) {
   covariance << odometry.pose.covariance[0], odometry.pose.covariance[1], odometry.pose.covariance[6],
       odometry.pose.covariance[7];
   if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().y()));
+  return largestSigma(covariance);
 }
 
 }  // namespace stereo_nav::nodes

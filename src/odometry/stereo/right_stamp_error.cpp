@@ -11,6 +11,8 @@ namespace {
 
 /// Matches, a few hundred a frame, from which on the errors of the rows are known well enough.
 constexpr double kFewestMatches = 1000.0;
+/// Matches that the estimate rests on at most, some minutes: rows go off as a rig warms up.
+constexpr double kMemory = 1e6;
 /// Matches that share their error: those of a feature, from frame to frame (docs/method.md).
 constexpr double kDependentMatches = 30.0;
 /// px, what lenses leave of rows that no linear function takes away; it does not average out while the motion
@@ -43,7 +45,13 @@ void RightStampError::learn() {
   const Eigen::Vector4d least(1e-3, 1e-3, 1e-3, 1.0);
   coefficients_ = (information_ + Eigen::Matrix4d(least.asDiagonal())).ldlt().solve(moments_);
   const auto found = rest();
-  if (!found || !found->isCertain()) return;
+  if (!found || !found->isCertain()) {
+    const double fading = std::min(1.0, kMemory / std::max(1.0, information_(0, 0)));
+    information_ *= fading;
+    moments_ *= fading;
+    squares_px2_ *= fading;
+    return;
+  }
   const double taken_off_s = taken_off_s_ + found->error_s;
   *this = RightStampError();
   taken_off_s_ = taken_off_s;

@@ -9,8 +9,8 @@ namespace stereo_nav::odometry {
 /// arrives and the other one when it is taken. It is found in the rows: where the rig moves, a feature moves
 /// through the image, and the right camera sees it in the row of the true time of exposure. What else
 /// displaces rows, an error of the calibration, is the same in each frame and linear in the image
-/// (vision::EpipolarError) and is estimated together with it, by robust least squares over all matches since
-/// the last correction. The columns tell nothing for certain, since the depths go along with them.
+/// (vision::EpipolarError) and is estimated together with it, by robust least squares with a fading memory.
+/// The columns tell nothing for certain, since the depths go along with them.
 class RightStampError {
  public:
   struct Estimate {

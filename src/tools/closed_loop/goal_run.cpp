@@ -34,7 +34,7 @@ bool GoalRun::step() {
   senses_.process(simulation_.time_s());
   const auto situation = senses_.situation(simulation_.time_s());
   if (!situation) return true;
-  if (senses_.localGrid()) planner_.see(senses_.localGrid(), situation->T_map_odom);
+  if (const auto grid = senses_.localGrid()) planner_.see(grid, situation->T_map_odom);
   const navigator::Twist command = navigator_.update(*situation);
   simulation_.command(command);
   const Eigen::Isometry2d T_world_base = situation->T_map_odom * situation->state.T_world_base;

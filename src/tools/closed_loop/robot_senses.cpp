@@ -1,6 +1,5 @@
 #include "tools/closed_loop/robot_senses.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,12 +18,6 @@ ros_io::StereoProcessing processingOf(const sim::DrivenSimulation& simulation, c
   const auto cameras = simulation.cameras();
   return {ros_io::toCameraInfo(cameras->calibration(sim::Side::kLeft), {}),
           ros_io::toCameraInfo(cameras->calibration(sim::Side::kRight), {}), options.disparity};
-}
-
-double positionSigma(const estimation::BaseEstimate& estimate) {
-  const Eigen::Matrix2d covariance = estimate.pose_covariance.topLeftCorner<2, 2>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().y()));
 }
 
 }  // namespace
@@ -116,9 +109,8 @@ void RobotSenses::see(const sim::StereoShot& shot) {
   surroundings_.emplace(std::make_shared<const grid::OccupancyGrid>(obstacles_.grid()));
 }
 
-const std::shared_ptr<const grid::OccupancyGrid>& RobotSenses::localGrid() const {
-  static const std::shared_ptr<const grid::OccupancyGrid> kNone;
-  return surroundings_ ? surroundings_->grid() : kNone;
+std::shared_ptr<const grid::OccupancyGrid> RobotSenses::localGrid() const {
+  return surroundings_ ? surroundings_->grid() : nullptr;
 }
 
 std::optional<navigator::Situation> RobotSenses::situation(double now_s) const {
@@ -128,7 +120,7 @@ std::optional<navigator::Situation> RobotSenses::situation(double now_s) const {
   situation.localisation_lost = lost_;
   situation.T_map_odom = planarPart(simulation_.start());
   situation.odometry_stamp_s = stamp_s_;
-  situation.position_sigma_m = positionSigma(*estimate_);
+  situation.position_sigma_m = largestSigma(estimate_->pose_covariance.topLeftCorner<2, 2>());
   situation.state.T_world_base = planarPart(estimate_->T_odom_base);
   situation.state.twist = {estimate_->twist(0), estimate_->twist(1), estimate_->twist(5)};
   if (surroundings_) {

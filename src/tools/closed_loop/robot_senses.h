@@ -37,7 +37,8 @@ class RobotSenses : public sim::DrivenSink {
   void process(double now_s);
   /// What is known now; nothing before the first pair. `surroundings` lives as long as this object.
   std::optional<navigator::Situation> situation(double now_s) const;
-  const std::shared_ptr<const grid::OccupancyGrid>& localGrid() const;
+  /// What was seen around the robot, in odom; null before the first pair.
+  std::shared_ptr<const grid::OccupancyGrid> localGrid() const;
 
   /// From base_link to the nearest place ahead whose disparity is measured, m.
   double nearestFloor_m() const;

@@ -7,22 +7,13 @@
 #include "stereo_nav/ros/topics.h"
 
 namespace stereo_nav::tools {
-namespace {
-
-ImuMounting mountingOf(const ros_io::Recording& recording, bool no_imu) {
-  ImuMounting imu = imuMounting(recording);
-  if (no_imu && !recording.imu().empty()) imu.problem = "--no-imu was asked for";
-  return imu;
-}
-
-}  // namespace
 
 KeyframeRun::KeyframeRun(const KeyframeRunOptions& options)
     : recording_(options.bag, options.part),
       processing_(recording_.leftInfo(), recording_.rightInfo(), {}),
       T_base_camera_(requireTransform(recording_, options.bag, ros_io::frames::kBase,
                                       recording_.leftInfo().header.frame_id)),
-      imu_(mountingOf(recording_, options.no_imu)),
+      imu_(imuMounting(recording_, options.no_imu)),
       truth_(groundTruthOfBase(recording_, options.bag, options.ground_truth, options.ground_truth_frame)),
       odometry_(odometry::loadOdometryConfig(options.config), processing_.calibration(),
                 {T_base_camera_.linear(), imu_.R_base_imu}),
@@ -31,23 +22,13 @@ KeyframeRun::KeyframeRun(const KeyframeRunOptions& options)
   if (!imu_.problem.empty()) notes_.push_back("the IMU is set aside: " + imu_.problem);
 }
 
-odometry::StereoFrame KeyframeRun::frameOf(const ros_io::RawPair& pair) const {
-  odometry::StereoFrame frame;
-  frame.left_time_s = pair.left_time_s;
-  frame.right_time_s = pair.right_time_s;
-  frame.readout_s = pair.rolling_shutter_s;
-  frame.left = processing_.rectifyLeft(pair.left);
-  frame.right = processing_.rectifyRight(pair.right);
-  return frame;
-}
-
 void KeyframeRun::forEachFrame(const std::function<void(const RecordedFrame&)>& handle,
                                const std::function<void(std::size_t, std::size_t)>& progress) {
   odometry::KeyframeMaker maker;
   ImuFeed feed(recording_);
   std::size_t frames = 0;
   recording_.forEachPair([&](const ros_io::RawPair& pair) {
-    const odometry::StereoFrame frame = frameOf(pair);
+    const odometry::StereoFrame frame = rectifiedFrame(processing_, pair);
     if (imu_.problem.empty()) feed.feed(std::max(pair.left_time_s, pair.right_time_s), odometry_);
     const odometry::FrameResult result = odometry_.process(frame);
     const double start_ms = processorTime_ms();

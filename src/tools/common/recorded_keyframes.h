@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "odometry/method/keyframe_maker.h"
-#include "ros/stereo_processing.h"
 #include "tools/common/recorded_rig.h"
 
 namespace stereo_nav::tools {
@@ -46,8 +45,6 @@ class KeyframeRun {
                     const std::function<void(std::size_t done, std::size_t all)>& progress);
 
  private:
-  odometry::StereoFrame frameOf(const ros_io::RawPair& pair) const;
-
   ros_io::Recording recording_;
   ros_io::StereoProcessing processing_;
   Eigen::Isometry3d T_base_camera_;

@@ -20,10 +20,23 @@ Eigen::Isometry3d requireTransform(const ros_io::Recording& recording, const std
       target + " " + source + "`");
 }
 
-ImuMounting imuMounting(const ros_io::Recording& recording) {
+odometry::StereoFrame rectifiedFrame(const ros_io::StereoProcessing& processing,
+                                     const ros_io::RawPair& pair) {
+  odometry::StereoFrame frame;
+  frame.left_time_s = pair.left_time_s;
+  frame.right_time_s = pair.right_time_s;
+  frame.readout_s = pair.rolling_shutter_s;
+  frame.left = processing.rectifyLeft(pair.left);
+  frame.right = processing.rectifyRight(pair.right);
+  return frame;
+}
+
+ImuMounting imuMounting(const ros_io::Recording& recording, bool no_imu) {
   ImuMounting mounting;
+  if (recording.imu().empty()) return mounting;
+  if (no_imu) mounting.problem = "--no-imu was asked for";
   // The thesis' header-less orientation is front-left-up: that of base_link.
-  if (recording.imu().empty() || !recording.imuFrame()) return mounting;
+  if (no_imu || !recording.imuFrame()) return mounting;
   mounting.problem =
       ros_io::imuStampProblem(recording.imu(), recording.firstLeft_s(), recording.lastLeft_s());
   if (!mounting.problem.empty()) return mounting;

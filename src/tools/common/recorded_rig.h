@@ -5,6 +5,7 @@
 #include <string>
 
 #include "odometry/method/watched_odometry.h"
+#include "ros/stereo_processing.h"
 #include "stereo_nav/ros/recording.h"
 
 namespace stereo_nav::tools {
@@ -18,7 +19,11 @@ struct ImuMounting {
   Eigen::Matrix3d R_base_imu = Eigen::Matrix3d::Identity();
   std::string problem;  ///< empty: it is used
 };
-ImuMounting imuMounting(const ros_io::Recording& recording);
+/// `no_imu`: as if there were none.
+ImuMounting imuMounting(const ros_io::Recording& recording, bool no_imu);
+
+/// A recorded pair as the odometry gets it, without disparity map.
+odometry::StereoFrame rectifiedFrame(const ros_io::StereoProcessing& processing, const ros_io::RawPair& pair);
 
 /// Poses of base_link from a TUM file or a topic of the bag: `source`, else ground_truth/odom where there is
 /// one; `frame`, else what the topic names, is the frame whose poses they are.

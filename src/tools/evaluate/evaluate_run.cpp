@@ -61,12 +61,8 @@ class Run {
   }
 
   eval::FrameRecord handle(const ros_io::RawPair& pair) {
-    odometry::StereoFrame frame;
-    frame.left_time_s = pair.left_time_s;
-    frame.right_time_s = pair.right_time_s - right_stamp_error_s_;
-    frame.readout_s = pair.rolling_shutter_s;
-    frame.left = processing_.rectifyLeft(pair.left);
-    frame.right = processing_.rectifyRight(pair.right);
+    odometry::StereoFrame frame = rectifiedFrame(processing_, pair);
+    frame.right_time_s -= right_stamp_error_s_;
     eval::FrameRecord record;
     if (config_.disparityUse() != odometry::DisparityUse::kNone) {
       const auto start = Clock::now();
@@ -173,8 +169,7 @@ EvaluationRun runEvaluation(const EvaluateOptions& options,
   const ros_io::StereoProcessing processing(recording.leftInfo(), recording.rightInfo(), disparity);
   const Eigen::Isometry3d T_base_camera =
       requireTransform(recording, options.bag, ros_io::frames::kBase, recording.leftInfo().header.frame_id);
-  ImuMounting imu = imuMounting(recording);
-  if (options.no_imu && !recording.imu().empty()) imu.problem = "--no-imu was asked for";
+  ImuMounting imu = imuMounting(recording, options.no_imu);
 
   EvaluationRun run = begun(options, recording, processing, T_base_camera);
   double right_stamp_error_s = 0.0;
